@@ -75,7 +75,6 @@ def is_arm_file(name: str) -> bool:
 
 
 def _with_tool(robot: Robot, numbers: Sequence[float]) -> Robot:
-    check_millimeters(numbers[:3], "--tool", 1.0)
     tool = frame(numbers, "--tool")
     try:
         return robot.with_tool(tool)
@@ -92,6 +91,8 @@ def frame(numbers: Sequence[float], name: str) -> Floats:
 
     from irbkin import pose
 
+    if name == "--tool":
+        check_millimeters(numbers[:3], name, 1.0)
     xyz = np.asarray(numbers[:3], dtype=float) / 1e3
     turn = list(numbers[3:])
     if len(numbers) == 3:

@@ -266,11 +266,13 @@ def test_a_report_goes_to_a_file_in_the_format_of_its_ending(seam, tmp_path):
 
 
 def test_the_last_line_is_right_about_what_was_checked():
-    def last(found=(), fixed=(), checked=4, reasons=None, unread=0):
+    def last(found=(), fixed=(), checked=4, assumed=0, reasons=None, unread=0):
         words = [Finding("a", 1, 1, "C201", "", it, "") for it in found]
-        return Report("", words, {}, checked, reasons or {}, unread, Counter(fixed)).conclusion
+        counts = (checked, assumed, reasons or {}, unread)
+        return Report("", words, {}, *counts, Counter(fixed)).conclusion
 
     assert last() == "All checks passed!"
+    assert last(assumed=2) == "No findings in the 6 moves checked."
     for fields in ({"reasons": {"calls": 1}}, {"unread": 1}):
         assert last(**fields) == "No findings in the 4 moves checked."
     assert last(["error", "note", "error"]) == "Found 2 errors, 1 note."

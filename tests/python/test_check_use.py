@@ -57,7 +57,13 @@ def test_every_format_has_the_moves_that_are_checked_and_the_reasons(seam, form)
     if form in ("json", "sarif"):
         record = json.loads(text)
         moves = record["moves"] if form == "json" else record["runs"][0]["properties"]["moves"]
-        assert moves == {"checked": 5, "total": 6, "reasons": {"unknown tools": 1}, "unread": 0}
+        assert moves == {
+            "checked": 5,
+            "assumed": 0,
+            "total": 6,
+            "reasons": {"unknown tools": 1},
+            "unread": 0,
+        }
     else:
         assert "5 of 6 moves checked, 1 not: 1 by unknown tools." in text
 

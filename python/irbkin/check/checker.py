@@ -7,6 +7,7 @@ from functools import cache
 from typing import Any
 
 from irbkin import Cell, rapid
+from irbkin._arm_options import frame
 from irbkin._cell import read
 from irbkin._core import Checked, check_codes
 from irbkin.check.codes import NOT_CHECKED, REASONS, UNREAD, selected
@@ -39,8 +40,10 @@ class Checker:
         self.cell: Cell | None
         self.cell, self._shapes = read(options["cell"]) if "cell" in options else (None, {})
         self._cell = os.path.basename(options.get("cell", ""))
-        last_values = options.get("last_values", False)
-        self._options = {"step": step / 1e3, "cell": self.cell, "last_values": last_values}
+        tools = options.get("tool", {})
+        self.tools = tools if isinstance(tools, Mapping) else {None: frame(tools, "--tool")}
+        self._takes_saved = options.get("last_values", False)
+        self._options = {"step": step / 1e3, "cell": self.cell, "tools": self.tools}
         self.codes, self._is_strict, self._settings = codes, is_strict, settings
         self._corrects_notes = options.get("select") is not None
         self._wanted: dict[str, set[str]] = {}
@@ -62,6 +65,7 @@ class Checker:
         given = {
             "codes": self.asked,
             "units": job.units,
+            "last_values": self._takes_saved or job.is_saved,
             "whole": False if is_unread else job.is_whole,
         }
         checked = program.check(job.robot, **self._options, **given, carried=self._shapes)

@@ -30,6 +30,8 @@ class Job:
     """The units that external axes belong to, as `rapid.check_program` takes them."""
     is_whole: bool | None = None
     """Whether every module of the task is there; None if that is not known."""
+    is_saved: bool = False
+    """Whether each PERS has the value that it was saved with: in a backup."""
     given: Collection[str] | None = None
     """Files of the program that alone are corrected; all if None."""
 
@@ -58,7 +60,7 @@ def job_of_task(backup: Backup, task: Task, program: Program) -> Job:
         return Job(None, program, task.name)
     title = f"{task.name}: {unit.name}, {unit.arm}"
     is_whole = not any(found.code == "module-missing" for found in backup.findings)
-    return Job(unit.robot, program, title, unit_rows(backup, unit.name), is_whole)
+    return Job(unit.robot, program, title, unit_rows(backup, unit.name), is_whole, is_saved=True)
 
 
 def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], list[Finding]]:

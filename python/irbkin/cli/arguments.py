@@ -35,6 +35,7 @@ OTHERS = {
 }
 """Names of options elsewhere, and ours."""
 TABLES = (".csv", ".json", ".npy", ".txt")
+NAMED = re.compile(r"[A-Za-z]\w*=")
 NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 
@@ -96,13 +97,14 @@ class Parser:
         self.add("-r", "--robot", dest="robot_", metavar="ROBOT", help=words)
         self.add_frames()
 
-    def add_frames(self) -> None:
+    def add_frames(self, *, with_tool: bool = True) -> None:
         """The frames of a .urdf file, the tool and the base."""
         self.add("--tip", metavar="LINK", help="of a .urdf file: the link that poses are of")
         self.add("--base-link", metavar="LINK", help="and the one that they are seen from")
         words = "and how far angles are rounded to right angles [rad]: 1e-5 takes 1.5708 for one"
         self.add("--snap", type=number, metavar="RAD", help=words)
-        self.add_frame("tool", "TCP in the flange", "tooldata")
+        if with_tool:
+            self.add_frame("tool", "TCP in the flange", "tooldata")
         self.add_frame("base", "base in the world", "pose")
 
     def add_frame(self, name: str, frame: str, kind: str) -> None:
@@ -207,6 +209,20 @@ def read_cell(arguments: argparse.Namespace) -> Cell | None:
 def read_wobj(arguments: argparse.Namespace) -> Floats:
     """The work object in the world, shape (4, 4)."""
     return frame(arguments.wobj or [0, 0, 0], "--wobj")
+
+
+def read_tools(given: Sequence[Sequence[str]]) -> dict[str | None, Floats]:
+    """The frames of tools that nothing declares, by their names; None is for all others."""
+    tools: dict[str | None, Floats] = {}
+    for first, *others in given:
+        name, _, value = first.partition("=") if NAMED.match(first) else ("", "", first)
+        words = [value, *others]
+        try:
+            numbers = frame_of(words, "tool") if is_data(value) else [number(it) for it in words]
+        except argparse.ArgumentTypeError as error:
+            raise CommandError(f"--tool: {error}") from None
+        tools[name or None] = frame(numbers, "--tool")
+    return tools
 
 
 def read_pose(arguments: argparse.Namespace) -> tuple[Floats, str]:

@@ -9,6 +9,7 @@ Examples:
   irbkin check backups/cell_3
   irbkin check "IRB 2600-12/1.65" program.mod --cell cell.toml
   irbkin check "IRB 2600-12/1.65" program.mod tools.sys --select R,C,N -o report.html
+  irbkin check "IRB 2600-12/1.65" program.mod --tool tGun=0 0 180
 """
 
 import argparse
@@ -16,9 +17,10 @@ import contextlib
 import io
 import json
 import os
+import re
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -35,7 +37,7 @@ from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
 from irbkin.check.report.diff import render
 from irbkin.check.settings import FORMATS, option_files, schema, settings_of
-from irbkin.cli.arguments import ROBOT_HELP, Parser
+from irbkin.cli.arguments import ROBOT_HELP, Parser, read_tools
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import STDIN, opened, replaced, shown
 from irbkin.cli.numbers import number
@@ -74,11 +76,13 @@ def add_arm(parser: Parser) -> None:
     add = parser.add
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("-r", "--robot", metavar="ROBOT", default=robot, help=ROBOT_HELP)
-    parser.add_frames()
+    parser.add_frames(with_tool=False)
     bounds, words = ("LOWER", "UPPER"), "limits of an axis [deg]; may be repeated"
     add("--limits", nargs=3, type=number, action="append", metavar=("AXIS", *bounds), help=words)
     add("--linkage-limits", nargs=2, type=number, metavar=bounds, help="of q3 - q2 [deg]")
-    add("--last-values", action="store_true", help="a PERS has the value in its text throughout")
+    words = "TCP of a tool that nothing declares: as of ik; without NAME= of all others"
+    add("--tool", nargs="+", action="append", metavar=("[NAME=]X", "Y Z"), help=words)
+    add("--last-values", action="store_true", help="a PERS has its saved value, as in a backup")
     parser.add_cell()
     codes: Any = {"metavar": "CODES", "type": lambda text: text.split(",")}
     add("--select", help="codes or their beginnings, with commas; ALL for all", **codes)
@@ -144,9 +148,11 @@ def _check(arguments: argparse.Namespace) -> int:
         with opened(STDIN) if STDIN in names else contextlib.nullcontext() as stream:
             own = ModuleFile("<stdin>", stream.read()) if stream else None
         files = [own if own and name == STDIN else name for name in names]
-        jobs, left_open = [job_of_files(robot_of(options, complain), files, settings)], []
+        robot = robot_of({**options, "tool": None}, complain)
+        jobs, left_open = [job_of_files(robot, files, settings)], []
     if not any(job.program.files or job.program.findings for job in jobs):
         complain(f"{' and '.join(names)}: excluded by {settings.file}: nothing is checked")
+    _check_tools(checker.tools, jobs)
     texts: list[Text] = []
     fixed = Counter[str]()
     if arguments.fix or arguments.diff:
@@ -176,6 +182,16 @@ def _check(arguments: argparse.Namespace) -> int:
     return FOUND if report.is_wrong else FINE
 
 
+def _check_tools(tools: Iterable[str | None], jobs: list[Job]) -> None:
+    """Report tools that stand for none."""
+    modules = [module for job in jobs for module in job.program.modules]
+    for name in filter(None, tools):
+        if any(it.name.lower() == name.lower() for own in modules for it in own.declarations):
+            complain(f"--tool {name}: the program declares it, and its own value counts")
+        elif not any(re.search(rf"\b{name}\b", it.source, re.IGNORECASE) for it in modules):
+            complain(f"--tool {name}: no move uses it")
+
+
 def _each(jobs: list[Job], progress: Progress) -> Iterator[Job]:
     for job in jobs:
         yield job
@@ -199,7 +215,10 @@ def _form(arguments: argparse.Namespace, options: dict[str, Any]) -> str:
 
 
 def given(arguments: argparse.Namespace) -> dict[str, Any]:
-    return {name: value for name, value in vars(arguments).items() if value is not None}
+    found = {name: value for name, value in vars(arguments).items() if value is not None}
+    if arguments.tool:
+        found["tool"] = read_tools(arguments.tool)
+    return found
 
 
 def _write(report: Report, form: str, arguments: argparse.Namespace, texts: list[Text]) -> None:

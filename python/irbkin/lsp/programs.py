@@ -52,7 +52,8 @@ class Programs:
     ) -> Sequence[Session]:
         checker = Checker(options, settings)
         if "robot" in options:
-            robot = robot_of(options, lambda words: print(f"irbkin: {words}", file=sys.stderr))
+            arm = {**options, "tool": None}
+            robot = robot_of(arm, lambda words: print(f"irbkin: {words}", file=sys.stderr))
             paths, notes = _paths(path, settings)
             return [Session(Job(robot, UNREAD, robot.name), paths, checker, notes)]
         root = backup_above(Path(path)) if os.path.isabs(path) else None

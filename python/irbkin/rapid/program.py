@@ -91,7 +91,7 @@ class Program:
 
         Args:
             robot: The arm. Work objects are given in the world, in which the robot's base is.
-            options: As of `rapid.check`; units, last_values, carried: docs/guide/check.md.
+            options: As of `rapid.check`; units, last_values, tools, carried: docs/guide/check.md.
 
         Returns:
             `Checked`, whose `module` numbers are indices of `modules`.

@@ -72,6 +72,15 @@ async def test_findings_come_with_their_statement_and_go(seam):
             await editor.client.wait_for_notification("textDocument/publishDiagnostics")
 
 
+@pytest.mark.asyncio
+async def test_the_tool_of_the_options_stands_for_undeclared_ones(seam):
+    text = SEAM.replace(",tGun;", ",tGrip;", 1)
+    for tool, is_said in (({}, True), ({"tool": [0, 0, 180]}, False)):
+        async with editing(seam.parent, options={"robot": NAME, **tool}) as editor:
+            codes = await editor.codes(editor.open(seam, text))
+        assert ("N602" in codes) == is_said, codes
+
+
 @pytest.mark.parametrize("here", ["project", "moves", ".", "elsewhere", "link"])
 @pytest.mark.asyncio
 async def test_findings_and_corrections_in_any_working_folder(tmp_path, monkeypatch, here):

@@ -118,7 +118,9 @@ class Report:
     texts: Mapping[str, SourceText]
     """The text of each file, by the name that findings have."""
     checked: int
-    """Number of moves that were checked."""
+    """Number of moves that were checked with what the program determines."""
+    assumed: int = 0
+    """Number of those that were checked with saved values or given tools."""
     reasons: Mapping[str, int] = field(default_factory=dict)
     """Number of unchecked moves by reason."""
     unread: int = 0
@@ -151,15 +153,15 @@ class Report:
     @property
     def moves(self) -> dict[str, Any]:
         """How many moves were checked, of how many, and why others were not, for programs."""
-        total = self.checked + sum(self.reasons.values())
-        counts = {"checked": self.checked, "total": total}
+        total = self.checked + self.assumed + sum(self.reasons.values())
+        counts = {"checked": self.checked, "assumed": self.assumed, "total": total}
         return {**counts, "reasons": dict(self.reasons), "unread": self.unread}
 
     @property
     def is_wrong(self) -> bool:
         """Whether it has an error or a warning, or no move was checked."""
         is_found = any(found.severity != "note" for found in self.findings)
-        return is_found or bool(self.reasons and not self.checked)
+        return is_found or bool(self.reasons and not self.checked + self.assumed)
 
     @property
     def statistics(self) -> list[dict[str, Any]]:
@@ -174,10 +176,12 @@ class Report:
     def coverage(self) -> str:
         """The first sentence: number of checked moves, and of the others by reason."""
         left = sum(self.reasons.values())
-        words = f"{self.checked} of {counted(self.checked + left, 'move')} checked"
+        words = f"{self.checked} of {counted(self.moves['total'], 'move')} checked"
+        if self.assumed:
+            words += f", {self.assumed} more with saved values or given tools"
         if left:
             parts = [f"{count} by {reason}" for reason, count in self.reasons.items()]
-            words += f", {left} not: {', '.join(parts)}"
+            words += f"{';' if self.assumed else ','} {left} not: {', '.join(parts)}"
         if self.unread:
             words += f"; {counted(self.unread, 'file')} not read"
         return f"{words}."
@@ -187,9 +191,9 @@ class Report:
         """The last sentence: number of findings by severity."""
         total = Counter(found.severity for found in self.findings) + self.fixed
         if not total:
-            if self.checked and not (self.reasons or self.unread):
+            if self.checked and not (self.reasons or self.assumed or self.unread):
                 return "All checks passed!"
-            return f"No findings in the {counted(self.checked, 'move')} checked."
+            return f"No findings in the {counted(self.checked + self.assumed, 'move')} checked."
         counts = [counted(total[level], level) for level in LEVELS if total[level]]
         hint = ""
         if self.fixed:
@@ -202,13 +206,14 @@ class Report:
 def report_of(checker: Checker, jobs: Iterable[Job], left_open: Iterable[Finding] = ()) -> Report:
     """Check programs and return the report; `left_open` are findings on the files around them."""
     found = [finding for finding in left_open if finding.code in checker.codes]
-    texts, programs, reasons, unread = {}, [], Counter[str](), 0
+    texts, programs, reasons, unread, assumed = {}, [], Counter[str](), 0, 0
     for job in jobs:
         checked, own = checker.check(job)
         found += own
         programs.append((job, checked))
         left = (move.unchecked for move in checked.moves if move.unchecked is not None)
         reasons.update(REASONS.get(code, code) for code in left)
+        assumed += sum(move.assumed for move in checked.moves)
         unread += sum(finding.code == UNREAD for finding in job.program.findings)
         for file, module in zip(job.program.files, job.program.modules, strict=True):
             texts[shown(file.path)] = SourceText(module.source)
@@ -218,7 +223,8 @@ def report_of(checker: Checker, jobs: Iterable[Job], left_open: Iterable[Finding
         # Shared modules are in several programs.
         list(dict.fromkeys(map(_shown, found))),
         texts,
-        moves - reasons.total(),
+        moves - assumed - reasons.total(),
+        assumed,
         dict(reasons.most_common()),
         unread,
         programs=programs,
