@@ -450,6 +450,7 @@ static TABLE: &[Entry] = &[
     function("TextTabFreeToUse", "string TableName"),
     function("TextTabGet", "string TableName"),
     call("TextTabInstall", "string File"),
+    call("TPErase", ""),
     does("TPReadDnum", r"INOUT dnum TPAnswer,string TPText\...", Waits),
     does("TPReadFK", r"INOUT num TPAnswer,string TPText,string TPFK1,string TPFK2,string TPFK3,string TPFK4,string TPFK5\...", Waits),
     does("TPReadNum", r"INOUT num TPAnswer,string TPText\...", Waits),
@@ -532,7 +533,7 @@ static GROUPS: [Group; 4] = [
 const BARE: &str = "ActEventBuffer CheckProgRef ClearPath CorrClear DeactEventBuffer DitherDeact \
     HollowWristReset IDisable IEnable PathLengthReset PathLengthStart PathLengthStop \
     ResetPPMoved ResetRetryCount RestoPath RMQEmptyQueue SafetyControllerSyncRequest SkipWarn \
-    SpyStop StartMoveRetry SyncMoveResume SyncMoveSuspend SyncMoveUndo TestSignReset TPErase \
+    SpyStop StartMoveRetry SyncMoveResume SyncMoveSuspend SyncMoveUndo TestSignReset \
     TuneReset UIMsgWriteAbort WarmStart";
 const BARE_FUNCTIONS: &str = "CDate CorrRead CTime EventType ExecHandler ExecLevel GetMaxNumberOfCyclicBool \
     GetModalPayLoadMode GetUASUserName IsSyncMoveOn MaxRobSpeed MotionPlannerNo OpMode \

@@ -300,11 +300,10 @@ pub(super) fn written_by(step: &Move) -> Option<String> {
     Some(argument.text.split(|c| !is_of_name(c)).next()?.to_lowercase())
 }
 
-/// Whether an instruction lets the robot be moved by hand, or nothing declares it.
+/// Whether the robot may be moved by hand behind an instruction, or by it: of an add-in, or unknown.
 pub(super) fn releases(names: &Index<'_>, module: usize, instruction: &Instruction<'_>) -> bool {
     let Some(name) = &instruction.name else { return true };
-    let is_of_rapid = Entry::instruction(name).is_some() || Entry::grouped(name, false).is_some();
-    let is_known = is_of_rapid || names.procedure(module, name).is_some();
+    let is_known = names.procedure(module, name).is_some() || Entry::instruction(name).is_some();
     instruction.effect == Effect::Stops || name == "setleadthrough" || !is_known
 }
 

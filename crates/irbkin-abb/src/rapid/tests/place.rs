@@ -54,7 +54,7 @@ fn behind_a_fine_move_the_robot_is_at_its_target() {
     for body in [
         "stay; ENDPROC PROC stay() MoveL Offs(CRobT(),0,2000,0),v100,fine,t;",
         "MoveJ a,v100,z10\\Inpos:=inpos50,t; p:=CRobT(); MoveL Offs(p,0,2000,0),v100,fine,t;",
-        "WaitTime 1; IF x THEN TPWrite \"\"; ENDIF p:=CRobT(); MoveL Offs(p,0,2000,0),v100,fine,t;",
+        "WaitTime 1; TPErase; IF x THEN TPWrite \"\"; ENDIF p:=CRobT(); MoveL Offs(p,0,2000,0),v100,fine,t;",
     ] {
         assert_eq!(behind(body).0, [Code::OutOfReach], "{body}");
     }
@@ -71,6 +71,7 @@ fn where_the_robot_may_be_elsewhere_its_position_is_not_known() {
         ("WHILE x DO MoveJ b,v100,fine,t; ENDWHILE", "a branch, a loop or a label"),
         ("again:", "a branch, a loop or a label"),
         ("jog;", "moved by hand or by a call"),
+        ("BrakeCheck;", "moved by hand or by a call"),
         ("Stop;", "moved by hand or by a call"),
         ("SetLeadThrough \\On;", "moved by hand or by a call"),
         ("look; ENDPROC PROC look() jog; ENDPROC PROC no()", "moved by hand or by a call"),
