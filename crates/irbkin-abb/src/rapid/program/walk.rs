@@ -297,7 +297,7 @@ impl<'m> Walk<'_, 'm> {
             steps.push((case, step));
         }
         match steps.pop() {
-            Some((_, only)) if steps.is_empty() => self.push(only),
+            Some((_, only)) if steps.is_empty() => self.push_move(only),
             Some(last) => {
                 self.state.place = Err("the target before it has one of several values");
                 steps.push(last);
@@ -326,7 +326,7 @@ impl<'m> Walk<'_, 'm> {
         is_passed_on: bool,
         assumed: Option<Rc<str>>,
         case: String,
-    ) -> Step<'m> {
+    ) -> Stepped<'m> {
         let assumed = assumed.or_else(|| self.state.assumed_shift.clone());
         if own.settings != self.state.settings {
             own.to_mut().settings = self.state.settings;
@@ -348,18 +348,8 @@ impl<'m> Walk<'_, 'm> {
             Cow::Borrowed(step) => Filled::Same(step),
             Cow::Owned(step) => Filled::Other(Box::new(step)),
         };
-        self.spend_move(&step);
         let assumed = assumed.map(|it| it.to_string());
-        Step::Move(Box::new(Stepped {
-            module,
-            instruction,
-            step,
-            chain,
-            case,
-            assumed,
-            halt,
-            displaced_on,
-        }))
+        Stepped { module, instruction, step, chain, case, assumed, halt, displaced_on }
     }
 
     /// Something that is no move and no branch.

@@ -92,6 +92,9 @@ pub(in crate::rapid) struct Run<'m> {
 /// A branch, a loop or a jump that decides on moves: its line and its word.
 pub(in crate::rapid) type Uncertain = (usize, String);
 
+/// A move by the place before it, its instruction and its chain of calls.
+type Made = (Option<(usize, usize)>, (usize, usize), usize);
+
 pub(super) struct Walk<'p, 'm> {
     pub(super) program: &'p Program<'m>,
     /// Whether a single routine is followed, whose steps must be certain.
@@ -111,6 +114,9 @@ pub(super) struct Walk<'p, 'm> {
     /// Chains of calls: the number of each by that of the chain before its last call, with the
     /// module and the first byte of that call.
     pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
+    /// The places behind moves, after so many steps of a run, by the place before them, the module
+    /// and the index of the instruction, and the chain of calls.
+    made: BTreeMap<Made, Vec<(usize, usize)>>,
     /// The passes of loops that are followed, each in words.
     pub(super) passes: Vec<String>,
     /// The number of the next open question.
@@ -147,6 +153,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             frame: Frame::default(),
             followed: BTreeSet::new(),
             chains: BTreeMap::new(),
+            made: BTreeMap::new(),
             passes: Vec::new(),
             questions: Cell::new(0),
             above: Vec::new(),
@@ -162,7 +169,7 @@ impl<'p, 'm> Walk<'p, 'm> {
     }
 
     /// Take a move, with the samples on its way, from what is left.
-    pub(super) fn spend_move(&mut self, step: &Move) {
+    fn spend_move(&mut self, step: &Move) {
         self.moves_left = self.moves_left.saturating_sub(1);
         let place = match &step.target.value {
             Ok(Target::RobTarget(target)) => Some(target.trans_mm),
@@ -294,6 +301,30 @@ impl<'p, 'm> Walk<'p, 'm> {
         Some((first.value.filter(|_| are_same)?, first.assumed))
     }
 
+    /// A move, unless it was made before from the same place with the same values.
+    pub(super) fn push_move(&mut self, stepped: Stepped<'m>) {
+        let from = match self.state.here {
+            Here::After(run, count) => Some((run, count)),
+            _ => None,
+        };
+        let by = (from, stepped.instruction, stepped.chain);
+        let is_same = |(run, count): &&(usize, usize)| match &self.runs[*run].steps[count - 1] {
+            Step::Move(own) => *own.step == *stepped.step && own.assumed == stepped.assumed,
+            Step::NotFollowed { .. } => false,
+        };
+        let before = self.made.get(&by).and_then(|all| all.iter().find(is_same)).copied();
+        if let Some((run, count)) = before.filter(|_| !self.is_one) {
+            self.last_place = None;
+            self.state.here = Here::After(run, count);
+            return;
+        }
+        self.spend_move(&stepped.step);
+        self.push(Step::Move(Box::new(stepped)));
+        if let Here::After(run, count) = self.state.here {
+            self.made.entry(by).or_default().push((run, count));
+        }
+    }
+
     pub(super) fn push(&mut self, step: Step<'m>) {
         if self.is_one && self.state.here == Here::Left {
             return;
@@ -316,7 +347,7 @@ impl<'p, 'm> Walk<'p, 'm> {
     }
 
     /// A move in several cases, each from where the robot is in it.
-    pub(super) fn push_each(&mut self, steps: Vec<(Case, Step<'m>)>) {
+    pub(super) fn push_each(&mut self, steps: Vec<(Case, Stepped<'m>)>) {
         let here = core::mem::replace(&mut self.state.here, Here::Unknown);
         let mut ends = Vec::with_capacity(steps.len());
         for (case, step) in steps {
@@ -328,8 +359,9 @@ impl<'p, 'm> Walk<'p, 'm> {
                 Here::Unknown | Here::Left => None,
             };
             let from = from.map(|(run, count)| (run, self.moves(run, count)));
+            self.spend_move(&step.step);
             ends.push((case, self.runs.len(), 1));
-            self.runs.push(Run { from, steps: Vec::from([step]) });
+            self.runs.push(Run { from, steps: Vec::from([Step::Move(Box::new(step))]) });
         }
         self.state.here = Here::OneOf(Rc::new(ends));
     }
