@@ -139,6 +139,19 @@ impl Known {
         Some(Self(Rc::new(ways.into_iter().map(candidate).collect::<Option<_>>()?)))
     }
 
+    /// Whether it has one content, which is another's too.
+    pub(super) fn is_always(&self, other: &Self) -> bool {
+        match (self.0.as_slice(), other.0.as_slice()) {
+            ([own], [other]) => (&own.content, &own.case) == (&other.content, &other.case),
+            _ => self == other,
+        }
+    }
+
+    /// Whether it rests on something that the program does not determine.
+    pub(super) fn is_assumed(&self) -> bool {
+        self.0.iter().any(|candidate| candidate.assumed.is_some())
+    }
+
     /// How many values it has, at least one.
     pub(super) fn size(&self) -> usize {
         let of = |candidate: &Candidate| match &candidate.content {
@@ -203,13 +216,21 @@ pub(super) struct Choices {
     words: RefCell<Vec<Rc<str>>>,
     assumed: RefCell<Option<Rc<str>>>,
     /// Whether what is not certain is unknown.
-    is_off: bool,
+    is_off: Cell<bool>,
 }
 
 impl Choices {
     /// No choices: what is not certain is unknown.
     pub(super) fn off() -> Self {
-        Self { is_off: true, ..Self::default() }
+        Self { is_off: Cell::new(true), ..Self::default() }
+    }
+
+    /// Evaluate something that has no cases: what is not certain is unknown.
+    pub(super) fn without<T>(&self, evaluate: impl FnOnce() -> T) -> T {
+        let before = self.is_off.replace(true);
+        let value = evaluate();
+        self.is_off.set(before);
+        value
     }
 
     /// The content of a datum on this way; `None` if it is not known.
@@ -218,7 +239,7 @@ impl Choices {
             self.rest_on(only);
             return Some(&only.content);
         }
-        if self.is_off {
+        if self.is_off.get() {
             return None;
         }
         let own = self.case.borrow().clone();
@@ -254,7 +275,7 @@ impl Choices {
         if let Some(known) = self.case.borrow().answer(question) {
             return Some(known);
         }
-        if self.is_off || count == 0 {
+        if self.is_off.get() || count == 0 {
             return None;
         }
         let answer = self.choose(count);

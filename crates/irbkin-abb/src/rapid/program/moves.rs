@@ -59,7 +59,7 @@ impl Scope<'_, '_> {
             self.argument(wobj);
         }
         self.takes_last.set(false);
-        self.pace(step);
+        self.choices.without(|| self.pace(step));
         self.takes_last.set(takes_last);
         is_passed_on
     }

@@ -212,8 +212,10 @@ impl State {
         let depending = Cell::new(0);
         let behind = |parts: Vec<Option<Known>>, name: &str| {
             let parts: Vec<Known> = parts.into_iter().collect::<Option<_>>()?;
-            if parts.iter().all(|part| *part == parts[0]) {
-                return Some(parts[0].clone());
+            if parts.iter().all(|part| part.is_always(&parts[0])) {
+                return Some(
+                    parts.iter().find(|part| part.is_assumed()).unwrap_or(&parts[0]).clone(),
+                );
             }
             let parts = ends.iter().map(|(answer, _)| *answer).zip(&parts);
             let unchanged = || format!("{name} is unchanged on line {line}");

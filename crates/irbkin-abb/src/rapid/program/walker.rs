@@ -301,23 +301,31 @@ impl<'p, 'm> Walk<'p, 'm> {
         Some((first.value.filter(|_| are_same)?, first.assumed))
     }
 
-    /// A move, unless it was made before from the same place with the same values.
+    /// The place behind a move that was made before from the same place with the same values.
+    fn made_before(
+        &self,
+        from: Option<(usize, usize)>,
+        stepped: &Stepped<'m>,
+    ) -> Option<(usize, usize)> {
+        let is_same = |(run, count): &&(usize, usize)| match &self.runs[*run].steps[count - 1] {
+            Step::Move(own) => *own.step == *stepped.step && own.assumed == stepped.assumed,
+            Step::NotFollowed { .. } => false,
+        };
+        let all = self.made.get(&(from, stepped.instruction, stepped.chain))?;
+        all.iter().find(is_same).copied().filter(|_| !self.is_one)
+    }
+
     pub(super) fn push_move(&mut self, stepped: Stepped<'m>) {
         let from = match self.state.here {
             Here::After(run, count) => Some((run, count)),
             _ => None,
         };
-        let by = (from, stepped.instruction, stepped.chain);
-        let is_same = |(run, count): &&(usize, usize)| match &self.runs[*run].steps[count - 1] {
-            Step::Move(own) => *own.step == *stepped.step && own.assumed == stepped.assumed,
-            Step::NotFollowed { .. } => false,
-        };
-        let before = self.made.get(&by).and_then(|all| all.iter().find(is_same)).copied();
-        if let Some((run, count)) = before.filter(|_| !self.is_one) {
+        if let Some((run, count)) = self.made_before(from, &stepped) {
             self.last_place = None;
             self.state.here = Here::After(run, count);
             return;
         }
+        let by = (from, stepped.instruction, stepped.chain);
         self.spend_move(&stepped.step);
         self.push(Step::Move(Box::new(stepped)));
         if let Here::After(run, count) = self.state.here {
@@ -358,10 +366,17 @@ impl<'p, 'm> Walk<'p, 'm> {
                 }
                 Here::Unknown | Here::Left => None,
             };
-            let from = from.map(|(run, count)| (run, self.moves(run, count)));
+            if let Some((run, count)) = self.made_before(from, &step) {
+                ends.push((case, run, count));
+                continue;
+            }
+            let by = (from, step.instruction, step.chain);
             self.spend_move(&step.step);
-            ends.push((case, self.runs.len(), 1));
+            let from = from.map(|(run, count)| (run, self.moves(run, count)));
+            let run = self.runs.len();
             self.runs.push(Run { from, steps: Vec::from([Step::Move(Box::new(step))]) });
+            self.made.entry(by).or_default().push((run, 1));
+            ends.push((case, run, 1));
         }
         self.state.here = Here::OneOf(Rc::new(ends));
     }
