@@ -16,7 +16,7 @@ use super::moves::place_behind;
 use super::state::{Displacement, Here, State};
 use super::statement::{Action, Condition, Instruction};
 use super::tree::{Block, Node, Part};
-use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk};
+use super::walker::{Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
@@ -290,6 +290,7 @@ impl<'m> Walk<'_, 'm> {
             let is_passed_on = scope.fill(&mut own);
             (own, is_passed_on)
         });
+        self.spend(MOVE * ways.len());
         let mut steps = Vec::with_capacity(ways.len());
         for Way { case, words, assumed, value: (own, is_passed_on) } in ways {
             let case_words = self.case(&words);
