@@ -14,6 +14,7 @@ use super::effects::{Acts, MOST_CALLED};
 use super::frame::{Frame, Site};
 use super::state::{Local, Locals, MOST_KNOWN};
 use super::statement::Instruction;
+use super::values::Calls;
 use super::walker::Walk;
 use super::whole::Program;
 use crate::rapid::data::module::{Content, Parameter, Storage};
@@ -58,6 +59,46 @@ impl Program<'_> {
             locals.values_mut().for_each(unknown);
         }
         Rc::new(locals)
+    }
+}
+
+impl Calls for Walk<'_, '_> {
+    /// What a function returns, as it is called in a text; `None` if that is not known, or if the
+    /// function does more than that.
+    fn returned(&self, text: &str, call: &Call<'_>) -> Option<Known> {
+        let (program, name) = (self.program, call.name.to_lowercase());
+        let (home, data_type) = program.function(self.frame.module, &name)?;
+        let is_circular = self.above.iter().any(|it| (it.0, &it.1) == (home, &name))
+            || (self.frame.module, &self.frame.routine) == (home, &name);
+        let does_more = program.effects.of_routine(home, &name).is_some_and(Acts::matters);
+        if is_circular || does_more || self.above.len() >= DEEPEST_CALLS || self.is_spent() {
+            return None;
+        }
+        let mut walk = Self::new(program, self.interrupt);
+        walk.takes_last = self.takes_last;
+        (walk.state, walk.frame) = (self.state.clone(), self.frame.clone());
+        walk.above.clone_from(&self.above);
+        walk.above.push((self.frame.module, self.frame.routine.clone()));
+        walk.questions.set(self.questions.get());
+        walk.steps_left = self.steps_left.saturating_sub(self.inside.get());
+        let left = walk.steps_left;
+        let bound = walk.bound((text, 0), program.parameters(home, &name), &call.arguments);
+        walk.state.locals = program.locals_of(home, &name, Some(bound.given));
+        walk.frame = Frame {
+            result: Some(data_type),
+            entry: walk.question(),
+            absent: bound.absent,
+            present: bound.present,
+            ..Frame::of(home, name)
+        };
+        walk.routine();
+        self.questions.set(walk.questions.get());
+        self.inside.update(|count| count + CALL + left - walk.steps_left);
+        walk.state.locals.get(RETURNED)?.content.clone().ok()
+    }
+
+    fn question(&self) -> usize {
+        self.questions.replace(self.questions.get() + 1)
     }
 }
 
@@ -154,40 +195,6 @@ impl<'m> Walk<'_, 'm> {
                 self.put(&name, local.content.clone().ok());
             }
         }
-    }
-
-    /// What a function returns, as it is called in a text; `None` if that is not known, or if the
-    /// function does more than that.
-    pub(super) fn returned(&self, text: &str, call: &Call<'_>) -> Option<Known> {
-        let (program, name) = (self.program, call.name.to_lowercase());
-        let (home, data_type) = program.function(self.frame.module, &name)?;
-        let is_circular = self.above.iter().any(|it| (it.0, &it.1) == (home, &name))
-            || (self.frame.module, &self.frame.routine) == (home, &name);
-        let does_more = program.effects.of_routine(home, &name).is_some_and(Acts::matters);
-        if is_circular || does_more || self.above.len() >= DEEPEST_CALLS || self.is_spent() {
-            return None;
-        }
-        let mut walk = Self::new(program, self.interrupt);
-        walk.takes_last = self.takes_last;
-        (walk.state, walk.frame) = (self.state.clone(), self.frame.clone());
-        walk.above.clone_from(&self.above);
-        walk.above.push((self.frame.module, self.frame.routine.clone()));
-        walk.questions.set(self.questions.get());
-        walk.steps_left = self.steps_left.saturating_sub(self.inside.get());
-        let left = walk.steps_left;
-        let bound = walk.bound((text, 0), program.parameters(home, &name), &call.arguments);
-        walk.state.locals = program.locals_of(home, &name, Some(bound.given));
-        walk.frame = Frame {
-            result: Some(data_type),
-            entry: walk.question(),
-            absent: bound.absent,
-            present: bound.present,
-            ..Frame::of(home, name)
-        };
-        walk.routine();
-        self.questions.set(walk.questions.get());
-        self.inside.update(|count| count + CALL + left - walk.steps_left);
-        walk.state.locals.get(RETURNED)?.content.clone().ok()
     }
 
     /// Keep what a function returns.

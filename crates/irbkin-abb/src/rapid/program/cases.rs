@@ -1,6 +1,7 @@
 //! Data that have one of several known values: in each case one, by the answers to questions that
 //! the text leaves open, such as which part of a branch is executed.
 
+use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -315,4 +316,9 @@ impl Choices {
         }
         false
     }
+}
+
+/// What a move rests on that has the saved value of a PERS.
+pub(super) fn saved_value(name: &str) -> Rc<str> {
+    format!("the saved value of {name}").into()
 }

@@ -4,9 +4,8 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::cases::Known;
+use super::cases::{Known, saved_value};
 use super::tree::{Body, bodies};
-use super::values::saved_value;
 use crate::rapid::data::module::{Datum, Module, Parameter, Routine, RoutineKind, Scope, Storage};
 use crate::rapid::data::unread::{NotRead, Unresolved};
 use crate::rapid::data::value::DataType;

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 use super::state::{Here, Local};
 use super::statement::{Action, Condition, Counter};
 use super::tree::{Block, Node, size};
+use super::values::Calls as _;
 use super::walker::Walk;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::unread::{Skipped, Unresolved};

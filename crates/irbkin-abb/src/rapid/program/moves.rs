@@ -116,7 +116,7 @@ impl Scope<'_, '_> {
         let Err(Reason::Reference { name, why: Unresolved::NotDeclared }) = &tool.value else {
             return;
         };
-        let given = |name| self.walk.tools.and_then(|tools| tools.get(&name));
+        let given = |name| self.tools.and_then(|tools| tools.get(&name));
         if let Some(given) = given(Some(name.to_lowercase())).or_else(|| given(None)) {
             if !is_joints {
                 self.choices.assume(|| "the tool of --tool".into());

@@ -2,40 +2,50 @@
 
 use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
-use super::cases::{Choices, Known, MOST_CASES, Questions};
+use super::cases::{Choices, Known, MOST_CASES, Questions, saved_value};
 use super::frame::Frame;
 use super::index::DatumId;
 use super::state::{Displacement, State, words_of};
-use super::walker::Walk;
 use super::whole::Program;
 use crate::rapid::calc::wrong::not_solved;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Datum, Storage};
 use crate::rapid::data::moves::Target;
+use crate::rapid::data::records::GivenTools;
 use crate::rapid::data::types::{Atoms, Record};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, Question, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::{Expression, Form};
+use crate::rapid::expression::tree::{Call, Expression, Form};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
 
+/// The calls that expressions make.
+pub(super) trait Calls {
+    /// What a function of the program returns, as it is called in a text.
+    fn returned(&self, text: &str, call: &Call<'_>) -> Option<Known>;
+
+    /// The number of a question that is asked once.
+    fn question(&self) -> usize;
+}
+
 /// The names that a place sees, with what is known there.
 pub(super) struct Scope<'s, 'm> {
-    pub(super) walk: &'s Walk<'s, 'm>,
+    pub(super) calls: &'s dyn Calls,
     pub(super) program: &'s Program<'m>,
     pub(super) state: &'s State,
     pub(super) frame: &'s Frame,
     /// Whether a PERS that the program assigns has its saved value, which the text has.
     pub(super) takes_last: Cell<bool>,
+    /// The tools for those that nothing declares.
+    pub(super) tools: Option<&'s GivenTools>,
     /// What is taken of several values.
     pub(super) choices: Choices,
     /// What calls of functions return, by their texts.
@@ -96,7 +106,7 @@ impl Names for Scope<'_, '_> {
         let own = text.get(expression.start..expression.end)?;
         let before = self.returned.borrow().get(own).cloned();
         let known = before.unwrap_or_else(|| {
-            let known = self.walk.returned(text, call);
+            let known = self.calls.returned(text, call);
             self.returned.borrow_mut().insert(own.to_string(), known.clone());
             known
         });
@@ -154,7 +164,7 @@ impl<'s> Scope<'s, '_> {
         if let Some(number) = self.asked.borrow().number(&key) {
             return number;
         }
-        let number = self.walk.question();
+        let number = self.calls.question();
         if words_of(text).all(|word| self.is_steady(word)) {
             let words = words_of(text).map(str::to_lowercase).collect();
             self.asked.borrow_mut().add(key, words, number);
@@ -364,9 +374,4 @@ fn known<T>(value: Result<T, Stop>) -> Result<T, Reason> {
         }
         Stop::Fault(_) => Reason::NoAggregate,
     })
-}
-
-/// What a move rests on that has the saved value of a PERS.
-pub(super) fn saved_value(name: &str) -> Rc<str> {
-    format!("the saved value of {name}").into()
 }

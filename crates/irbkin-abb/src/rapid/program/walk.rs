@@ -16,6 +16,7 @@ use super::moves::place_behind;
 use super::state::{Displacement, Here, State};
 use super::statement::{Action, Condition, Instruction};
 use super::tree::{Block, Node, Part};
+use super::values::Calls as _;
 use super::walker::{Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
 use crate::rapid::data::finding::{Code, Finding};

@@ -234,11 +234,6 @@ impl<'p, 'm> Walk<'p, 'm> {
         (question, question == next)
     }
 
-    /// A question that is asked once.
-    pub(super) fn question(&self) -> usize {
-        self.questions.replace(self.questions.get() + 1)
-    }
-
     /// Record a place that decides on steps.
     pub(super) fn decides(&mut self, line: usize, word: &str) {
         self.uncertain.get_or_insert_with(|| (line, word.to_string()));
@@ -261,11 +256,12 @@ impl<'p, 'm> Walk<'p, 'm> {
     /// The names and values that are known here.
     pub(super) fn scope(&self, choices: Choices) -> Scope<'_, 'm> {
         Scope {
-            walk: self,
+            calls: self,
             program: self.program,
             state: &self.state,
             frame: &self.frame,
             takes_last: Cell::new(self.takes_last),
+            tools: self.tools,
             choices,
             returned: RefCell::default(),
             asked: RefCell::new(self.state.asked.clone()),
