@@ -170,6 +170,19 @@ pub fn check<const N: usize>(
     Ok(Checked { findings: sorted(found, &demands, &cases), moves })
 }
 
+/// A move that is not followed, as one that is not checked.
+fn unfollowed_move<const N: usize>(finding: &Finding) -> CheckedMove<N> {
+    CheckedMove {
+        module: finding.module,
+        line: finding.line,
+        column: finding.column,
+        routine: finding.routine.clone(),
+        target: finding.subject.clone(),
+        unchecked: Some(finding.code),
+        ..CheckedMove::default()
+    }
+}
+
 /// A finding on a goal in its module, with what it rests on: values of the move and, on the way to
 /// its target, of the move before it. Names, speeds and zones rest on nothing.
 fn resting<const N: usize>(
@@ -225,16 +238,7 @@ impl<const N: usize> Checker<'_, '_, N> {
         followed.check_speeds(&self.max_velocity);
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
         for finding in unfollowed {
-            let own = CheckedMove {
-                module: finding.module,
-                line: finding.line,
-                column: finding.column,
-                routine: finding.routine.clone(),
-                target: finding.subject.clone(),
-                unchecked: Some(finding.code),
-                ..CheckedMove::default()
-            };
-            self.moves.push(([0, own.module, usize::MAX], own));
+            self.moves.push(([0, finding.module, usize::MAX], unfollowed_move(finding)));
             add_once(&mut self.found, &mut self.seen, finding.clone());
         }
         // Where the confdata of a move is wrong.

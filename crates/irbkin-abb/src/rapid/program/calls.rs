@@ -292,13 +292,10 @@ impl<'m> Walk<'_, 'm> {
                 Err(_) => Err(Unresolved::ValueNotKnown),
             },
         });
-        let content = match ways.iter().find_map(|way| way.value.as_ref().err()) {
-            Some(why) => Err(why.clone()),
-            None => {
-                let words = format!("{} is {text}", parameter.name);
-                Known::of_ways(ways, Result::ok, &words).ok_or(Unresolved::ValueNotKnown)
-            }
-        };
+        let unknown = ways.iter().find_map(|way| way.value.as_ref().err().cloned());
+        let words = format!("{} is {text}", parameter.name);
+        let known = Known::of_ways(ways, Result::ok, &words);
+        let content = known.ok_or(unknown.unwrap_or(Unresolved::ValueNotKnown));
         let own = (text.to_string(), self.frame.module, start + value.start..start + value.end);
         let above = name.as_ref().and_then(|(name, _)| self.frame.texts.get(name).cloned());
         bound.texts.insert(parameter.name.clone(), above.unwrap_or(own));

@@ -348,7 +348,9 @@ impl<'e, 'm> Reader<'e, 'm> {
                 }
                 Node::Other(skipped, action) => self.statement(skipped.line, action),
                 Node::Branches { parts, .. } => {
-                    parts.iter().for_each(|part| self.block(&part.block))
+                    for part in parts {
+                        self.block(&part.block);
+                    }
                 }
                 Node::Loop { body, .. } => self.block(body),
             }

@@ -114,7 +114,7 @@ struct Open<'m> {
     is_single: bool,
 }
 
-impl<'m> Open<'m> {
+impl Open<'_> {
     /// Close the open part.
     fn close_part(&mut self) {
         let block = mem::take(&mut self.part);

@@ -235,7 +235,9 @@ impl<'m> Walk<'_, 'm> {
                     self.left.insert((self.frame.module, *index), *step);
                 }
                 Node::Branches { parts, .. } => {
-                    parts.iter().for_each(|part| self.left_out(&part.block))
+                    for part in parts {
+                        self.left_out(&part.block);
+                    }
                 }
                 Node::Loop { body, .. } => self.left_out(body),
                 _ => {}
