@@ -213,7 +213,7 @@ def test_every_verb_with_an_output_is_a_writer_above():
     own = set(re.findall(r'by_command\("(\w+)"', Path(__file__).read_text(encoding="utf-8")))
     found = set()
     for verb in VERBS:
-        actions = parser_of(verb).parser._actions
+        actions = parser_of(verb)._actions
         if "-o" in {option for it in actions for option in it.option_strings}:
             found.add(verb)
     assert own == found

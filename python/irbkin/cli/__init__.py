@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from irbkin.cli.errors import FINE, CommandError, guarded
 
 if TYPE_CHECKING:
-    from irbkin.cli.arguments import OneLine, Parser
+    from irbkin.cli.arguments import Parser
 
 __all__ = ["main"]
 
@@ -70,20 +70,22 @@ def module_of(verb: str) -> str:
     return f"irbkin.cli.{verb.replace('-', '_')}"
 
 
-def parser_of(verb: str, own: OneLine | None = None) -> Parser:
+def parser_of(verb: str, own: Parser | None = None) -> Parser:
     from irbkin.cli.arguments import Parser
 
     module = importlib.import_module(module_of(verb))
-    parser = Parser(verb, module.__doc__ or "", own)
+    parser = own or Parser(prog=f"irbkin {verb}")
+    parser.description, _, examples = (module.__doc__ or "").partition("\nExamples:\n")
+    parser.examples = f"\nexamples:\n{examples}"
     module.add_arguments(parser)
     return parser
 
 
-def root(fill: Callable[[str, OneLine], object]) -> OneLine:
+def root(fill: Callable[[str, Parser], object]) -> Parser:
     """The parser of all verbs, each filled."""
-    from irbkin.cli.arguments import OneLine
+    from irbkin.cli.arguments import Parser
 
-    parser = OneLine(prog="irbkin", description=ABOUT, usage="irbkin VERB ...")
+    parser = Parser(prog="irbkin", description=ABOUT, usage="irbkin VERB ...")
     parser.examples = CODES
     parser.add_argument("--version", action="store_true", help="the version")
     verbs = parser.add_subparsers(title="verbs", metavar="VERB")

@@ -39,24 +39,50 @@ NAMED = re.compile(r"[A-Za-z]\w*=")
 NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 
-class Parser:
-    """The arguments of a verb."""
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line, and whose help has the width of the terminal."""
 
-    def __init__(self, verb: str, words: str, parser: OneLine | None = None) -> None:
-        text, _, examples = words.partition("\nExamples:\n")
-        self.parser = parser or OneLine(prog=f"irbkin {verb}")
-        self.parser.description = text
-        self.parser.examples = f"\nexamples:\n{examples}"
-        self.add = self.parser.add_argument
+    add = argparse.ArgumentParser.add_argument
+
+    def __init__(self, **options: Any) -> None:
+        # Each argument that is added asks for a formatter: this one does not ask the terminal.
+        plain = functools.partial(argparse.HelpFormatter, width=96)
+        super().__init__(formatter_class=plain, allow_abbrev=False, **options)
+        self.examples, self.own_usage = "", self.usage
         self.endings: tuple[str, ...] | None = None
         self.needs_robot = False
+
+    def print_help(self, file: Any = None) -> None:
+        """Print the help, with examples as they are typed."""
+        from rich_argparse import RichHelpFormatter
+
+        RichHelpFormatter.text_markup = RichHelpFormatter.help_markup = False
+        self.formatter_class = RichHelpFormatter
+        # Parsing has set the usage, at another width.
+        self.usage = self.own_usage
+        super().print_help(file)
+        print(self.examples, end="")
+
+    def error(self, message: str) -> NoReturn:
+        """End the command."""
+        if message.endswith("required: ROBOT"):
+            message = f"no robot: {GIVE_ROBOT}"
+        elif unknown := re.match(r"unrecognized arguments: (-\S+)", message):
+            import difflib
+
+            word, options = unknown[1].partition("=")[0], self._option_string_actions
+            meant = [it for names, it in OTHERS.items() if word.strip("-") in names.split()]
+            close = [it for it in meant if it in options]
+            for it in close or difflib.get_close_matches(word, options, n=1):
+                message += f": did you mean {it}?"
+        raise CommandError(f"{message} ({self.prog} --help)")
 
     def parsed(self, given: Sequence[str]) -> argparse.Namespace:
         """The arguments; a negative number is not an option, with an exponent either."""
         words = [f" {it}" if NUMBER.fullmatch(it) else it for it in given]
         if self.needs_robot and not {"-h", "--help"} & {*words}:
             words = self._with_robot(words)
-        arguments = self.parser.parse_intermixed_args(words)
+        arguments = self.parse_intermixed_args(words)
         for name in ("tool", "base", "wobj"):
             own = getattr(arguments, name, None)
             if own and isinstance(own[0], str):
@@ -70,7 +96,7 @@ class Parser:
 
     def _with_robot(self, words: list[str]) -> list[str]:
         """The arguments with the robot first: given by its option, or once for all calls."""
-        options = OneLine(prog=self.parser.prog, add_help=False)
+        options = Parser(prog=self.prog, add_help=False)
         options.add_argument("-r", "--robot")
         given, rest = options.parse_known_args(words)
         if given.robot is not None:
@@ -85,7 +111,7 @@ class Parser:
         if "robot" not in settings.options:
             return words
         own = {name: it for name, it in settings.options.items() if name in OF_ARM}
-        self.parser.set_defaults(**own)
+        self.set_defaults(**own)
         complain(f"{', '.join(('robot', *own)).replace('_', '-')} of {settings.file}")
         return [settings.options["robot"], *words]
 
@@ -127,46 +153,11 @@ class Parser:
     def add_formats(self, array: str, *others: str) -> None:
         """How rows are written: by the ending of the output, which may be one of `others`."""
         self.endings = (*TABLES, *others)
-        formats = self.parser.add_mutually_exclusive_group()
+        formats = self.add_mutually_exclusive_group()
         formats.add_argument("--json", action="store_true", help="write JSON")
         formats.add_argument("--csv", action="store_true", help="write CSV")
         words = f"write to a file, its format by its ending: .csv, .json, .npy ({array}), "
         self.add("-o", "--output", metavar="FILE", help=f"{words}.txt or none for a table")
-
-
-class OneLine(argparse.ArgumentParser):
-    """A parser whose errors are one line, and whose help has the width of the terminal."""
-
-    def __init__(self, **options: Any) -> None:
-        # Each argument that is added asks for a formatter: this one does not ask the terminal.
-        plain = functools.partial(argparse.HelpFormatter, width=96)
-        super().__init__(formatter_class=plain, allow_abbrev=False, **options)
-        self.examples, self.own_usage = "", self.usage
-
-    def print_help(self, file: Any = None) -> None:
-        """Print the help, with examples as they are typed."""
-        from rich_argparse import RichHelpFormatter
-
-        RichHelpFormatter.text_markup = RichHelpFormatter.help_markup = False
-        self.formatter_class = RichHelpFormatter
-        # Parsing has set the usage, at another width.
-        self.usage = self.own_usage
-        super().print_help(file)
-        print(self.examples, end="")
-
-    def error(self, message: str) -> NoReturn:
-        """End the command."""
-        if message.endswith("required: ROBOT"):
-            message = f"no robot: {GIVE_ROBOT}"
-        elif unknown := re.match(r"unrecognized arguments: (-\S+)", message):
-            import difflib
-
-            word, options = unknown[1].partition("=")[0], self._option_string_actions
-            meant = [it for names, it in OTHERS.items() if word.strip("-") in names.split()]
-            close = [it for it in meant if it in options]
-            for it in close or difflib.get_close_matches(word, options, n=1):
-                message += f": did you mean {it}?"
-        raise CommandError(f"{message} ({self.prog} --help)")
 
 
 def _is_arm(word: str) -> bool:
@@ -200,7 +191,6 @@ def read_robot(arguments: argparse.Namespace) -> Robot:
 
 
 def read_cell(arguments: argparse.Namespace) -> Cell | None:
-    """The cell of the arguments, if there is one."""
     from irbkin import Cell
 
     return None if arguments.cell is None else Cell.load(arguments.cell)

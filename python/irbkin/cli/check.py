@@ -55,11 +55,11 @@ def add_arguments(parser: Parser) -> None:
     add = parser.add
     add("files", metavar="FILE", nargs="*", help="ROBOT but for a backup, then modules, folders, -")
     add_arm(parser)
-    change = parser.parser.add_mutually_exclusive_group()
+    change = parser.add_mutually_exclusive_group()
     change.add_argument("--fix", action="store_true", help="correct confdata in the files")
     change.add_argument("--diff", action="store_true", help="show what --fix would write")
     change.add_argument("--watch", action="store_true", help="check again when a file changes")
-    form = parser.parser.add_mutually_exclusive_group()
+    form = parser.add_mutually_exclusive_group()
     form.add_argument("--output-format", choices=FORMATS, help="text if not given")
     form.add_argument("--json", action="store_const", const="json", dest="output_format")
     add("-o", "--output-file", metavar="FILE", help="its format by its ending: .html, .sarif, ...")

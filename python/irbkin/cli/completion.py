@@ -11,7 +11,7 @@ import argparse
 import shtab
 
 from irbkin.cli import parser_of, root
-from irbkin.cli.arguments import OneLine, Parser
+from irbkin.cli.arguments import Parser
 from irbkin.cli.errors import FINE
 
 FILES = ("FILE", "OLD", "NEW", "OTHER", "Q")
@@ -26,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
     return FINE
 
 
-def _fill(verb: str, own: OneLine) -> None:
-    for action in parser_of(verb, own).parser._actions:
+def _fill(verb: str, own: Parser) -> None:
+    for action in parser_of(verb, own)._actions:
         if action.metavar in FILES:
             action.complete = shtab.FILE  # type: ignore[attr-defined]

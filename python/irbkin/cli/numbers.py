@@ -22,7 +22,6 @@ def number(text: str) -> float:
 
 
 def number_or_data(text: str) -> float | str:
-    """A finite number, or RAPID."""
     return text if is_data(text) else number(text)
 
 

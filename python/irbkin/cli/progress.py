@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
@@ -28,20 +28,21 @@ class Progress(contextlib.ExitStack):
         self.done += count
         self.total = total or self.total
         if self.bar is None and time.monotonic() - self.began >= AFTER:
-            from rich.progress import MofNCompleteColumn, TimeRemainingColumn
+            from rich import console, progress
 
-            self.bar = _bar(MofNCompleteColumn(), "{task.fields[rate]}/s", TimeRemainingColumn())
+            self.bar = progress.Progress(
+                progress.TextColumn("{task.description}"),
+                progress.BarColumn(),
+                progress.TimeElapsedColumn(),
+                progress.MofNCompleteColumn(),
+                "{task.fields[rate]}/s",
+                progress.TimeRemainingColumn(),
+                console=console.Console(stderr=True),
+                # It leaves nothing behind.
+                transient=True,
+            )
             self.enter_context(self.bar).add_task(self.what, total=self.total, rate="")
         if self.bar:
             rate = f"{self.done / (time.monotonic() - self.began):,.0f}"
             (task,) = self.bar.task_ids
             self.bar.update(task, completed=self.done, total=self.total, rate=rate)
-
-
-def _bar(*columns: Any) -> Bar:
-    """A bar that leaves nothing behind."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    first = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*first, *columns, console=Console(stderr=True), transient=True)

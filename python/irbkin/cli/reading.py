@@ -7,6 +7,7 @@ import numpy as np
 
 from irbkin import pose
 from irbkin._arm_options import check_euler
+from irbkin._core import NOT_THERE
 from irbkin.cli.data import data_of, is_data, split
 from irbkin.cli.errors import CommandError, complain
 from irbkin.cli.files import opened, shown
@@ -20,8 +21,6 @@ OTHERS = {
     b"\xfe\xff": "is UTF-16 text; save it as UTF-8",
 }
 """How files begin that are not read."""
-NOT_THERE = 9e9
-"""An external axis that a target does not have."""
 QUATERNION_TOLERANCE = 2e-3
 MOST_EULER = 2.0 * np.pi + 1e-4
 """The largest Euler angle that the library takes [rad]."""

@@ -25,7 +25,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def explained(word: str) -> str:
-    """Return the rule of a code or a name."""
     code = code_of(word)
     if code not in rules():
         raise CommandError(f"unknown code {word!r}: did you mean {close(word)}? (irbkin rule)")
@@ -38,7 +37,6 @@ def explained(word: str) -> str:
 
 
 def listed() -> str:
-    """Return a line for each code."""
     lines = [
         f"{it.id}  {it.name:22}  {it.severity:8}{'' if it.is_default else '(only if selected)'}"
         for it in codes().values()
