@@ -2,6 +2,8 @@
 
 import re
 from bisect import bisect
+from collections import ChainMap
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -92,13 +94,16 @@ class Names:
         return [self._known[at][1] for at in range(len(self.program.modules))]
 
     @cached_property
-    def _own(self) -> list[dict[tuple[str, str], Declared]]:
-        """The declarations of each module by their routines and names in lower case."""
-        # The first of several declarations takes precedence.
-        return [
-            {((it.routine or "").lower(), it.name.lower()): it for it in reversed(declared)}
-            for declared in self.of_modules
-        ]
+    def _own(self) -> list[dict[str, dict[str, Declared]]]:
+        """The declarations of each module by their routines, then by names, in lower case."""
+        found = []
+        for declared in self.of_modules:
+            own: dict[str, dict[str, Declared]] = {}
+            # The first of several declarations takes precedence.
+            for it in reversed(declared):
+                own.setdefault((it.routine or "").lower(), {})[it.name.lower()] = it
+            found.append(own)
+        return found
 
     @cached_property
     def _shared(self) -> dict[str, Declared]:
@@ -120,18 +125,15 @@ class Names:
         place = bisect(routines, line, key=lambda routine: routine[0])
         return routines[place - 1][1] if place else None
 
-    def visible(self, module: int, routine: str | None) -> dict[str, Declared]:
+    def visible(self, module: int, routine: str | None) -> Mapping[str, Declared]:
         """Return what a routine of a module sees, by names in lower case."""
-        own, inner = self._own[module], (routine or "").lower()
-        shown = {**self._shared, **{name: it for (of, name), it in own.items() if not of}}
-        shown |= self.parameters(own.get(("", inner)))
-        return {**shown, **{name: it for (of, name), it in own.items() if inner and of == inner}}
+        own, name = self._own[module], (routine or "").lower()
+        inner, outer = own.get(name, {}), own.get("", {})
+        return ChainMap(inner, self.parameters(outer.get(name)), outer, self._shared)
 
     def find(self, module: int, routine: str | None, name: str) -> Declared | None:
         """Return the declaration of a name that is used in a routine of a module."""
-        own, lower, of = self._own[module], name.lower(), (routine or "").lower()
-        inner = own.get((of, lower)) or self.parameters(own.get(("", of))).get(lower)
-        return inner or own.get(("", lower)) or self._shared.get(lower)
+        return self.visible(module, routine).get(name.lower())
 
     def parameters(self, of: Declared | None) -> dict[str, Declared]:
         """Return the parameters of a routine, by names in lower case."""
