@@ -11,12 +11,13 @@ from typing import Literal
 import numpy as np
 
 from irbkin import Robot
+from irbkin._core import NOT_THERE
 from irbkin._words import counted, listed
 from irbkin.abb.carriers import carriers_of
 from irbkin.abb.findings import Finding
 from irbkin.abb.folders import Folder
 from irbkin.abb.tasks import Task
-from irbkin.abb.units import NOT_THERE, ExternalUnit, Pose, RobotUnit
+from irbkin.abb.units import ExternalUnit, Pose, RobotUnit
 from irbkin.errors import InvalidModelError
 from irbkin.rapid import Program
 from irbkin.rapid.program import ModuleFile, program_of
@@ -182,11 +183,12 @@ class Backup:
         """The programs of the tasks that have modules, by name. A file of an archive has its path
         in it.
         """
-        return {task.name: self._program(task) for task in self.tasks if task.modules}
-
-    def _program(self, task: Task) -> Program:
-        named = ((str(self.origin / it.file), it.path) for it in task.modules)
-        return program_of(ModuleFile(name, path.read_bytes()) for name, path in named)
+        found = {}
+        for task in (own for own in self.tasks if own.modules):
+            named = ((str(self.origin / it.file), it.path) for it in task.modules)
+            files = [ModuleFile(name, path.read_bytes()) for name, path in named]
+            found[task.name] = program_of(files)
+        return found
 
 
 def _base_of(unit: RobotUnit | ExternalUnit) -> Pose:

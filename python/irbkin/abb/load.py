@@ -125,7 +125,6 @@ def _undetermined(machine: Machine, file: str) -> list[Finding]:
 def _missing(
     moc: CfgFile, sys: CfgFile, info: BackInfo, machine: Machine, tasks: tuple[Task, ...]
 ) -> list[Finding]:
-    """Report the files that a backup lacks, and what follows."""
     found: list[tuple[Literal["warning", "note"], str]] = []
     if not moc.file:
         arms = "" if machine.robots else "robots, "

@@ -3,7 +3,7 @@
 import math
 from functools import cached_property
 
-from irbkin import pose
+from irbkin import Robot, pose
 from irbkin.abb.arms import Fitted, fitted
 from irbkin.abb.carriers import Machine, check_carriers, related
 from irbkin.abb.cfg import CfgFile, Instance
@@ -56,16 +56,19 @@ class _Reader:
                 self.report(arm.line, "linkage-limits", "warning", message)
         return None
 
-    def base(self, of: Instance) -> Pose | None:
-        """Return the base frame of an instance [m]. An absent key has its default; u0 is 1."""
+    def base(self, of: Instance, robot: Robot | None = None) -> tuple[Pose | None, Robot | None]:
+        """Return the base frame of an instance [m], and a robot there. An absent key has its
+        default; u0 is 1.
+        """
         position = [of.number(f"base_frame_pos_{axis}") for axis in "xyz"]
         wxyz = [of.number(f"base_frame_orient_u{i}", float(i == 0)) for i in range(4)]
         try:
-            return pose(position, wxyz)
+            base = pose(position, wxyz)
+            return base, None if robot is None else robot.with_base(base)
         except ValueError as error:
             message = f"{of.name}: its base frame is not determined: {error}"
             self.report(of.line, "base-frame", "error", message)
-            return None
+            return None, robot
 
     def joints_of(self, robot: Instance) -> tuple[str, ...]:
         """Return the joints of a robot, axis 1 first; axis 7 of a YuMi is a SINGLE beside it."""
@@ -82,21 +85,13 @@ class _Reader:
     def robot(self, of: Instance) -> RobotUnit:
         type_name = of.text("use_robot_type")
         joints = self.joints_of(of)
-        base = self.base(of)
         limits = [self.bounds(joint) for joint in joints]
         # A name that lacks a side has it in the name of the unit: ROB_L.
         names = [type_name, f"{of.name}_{type_name}"] if type_name else []
         only = len(self.moc.of("ROBOT")) == 1
         found = fitted(names, self.wording if only else (), limits, self.linkage(joints))
         self.report_fit(of, type_name, found)
-        robot = found.robot
-        if robot is not None and base is not None:
-            try:
-                robot = robot.with_base(base)
-            except ValueError as error:
-                base = None
-                message = f"{of.name}: its base frame is not determined: {error}"
-                self.report(of.line, "base-frame", "error", message)
+        base, robot = self.base(of, found.robot)
         calibration = of.text("use_robot_calib").lower()
         is_calibrated = calibration.endswith("_calib") and self.has_errors(joints)
         if is_calibrated:
@@ -108,7 +103,6 @@ class _Reader:
         )  # fmt: skip
 
     def report_fit(self, of: Instance, type_name: str, found: Fitted) -> None:
-        """Report what the catalog or the limits leave open of a robot."""
         if found.robot is None:
             message = f"{of.name}: {found.reason}: its moves are not checked"
             self.report(of.line, "unknown-arm", "warning", message)
@@ -142,7 +136,6 @@ class _Reader:
         return ExternalAxis(joint, eax, *self.bounds(joint))
 
     def single(self, of: Instance) -> ExternalUnit:
-        """Return a unit of one axis."""
         type_name = of.text("use_single_type")
         single_type = self.moc.named("SINGLE_TYPE", type_name)
         kind = _kind(type_name, single_type.text("mechanics") if single_type else "")
@@ -157,10 +150,9 @@ class _Reader:
     def external(
         self, of: Instance, type_name: str, kind: UnitKind, joints: tuple[str, ...]
     ) -> ExternalUnit:
+        base, _ = self.base(of)
         axes = tuple(map(self.axis, joints))
-        return ExternalUnit(
-            of.name, type_name, kind, self.base(of), _carrier(of), (), axes, False, of.line
-        )
+        return ExternalUnit(of.name, type_name, kind, base, _carrier(of), (), axes, False, of.line)
 
     def is_gantry(self, of: Instance) -> bool:
         type_name = of.text("use_robot_type")

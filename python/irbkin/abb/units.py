@@ -11,14 +11,13 @@ import numpy as np
 
 from irbkin import Robot
 from irbkin._arrays import Floats, rotations
+from irbkin._core import NOT_THERE
 from irbkin.errors import InvalidModelError
 
 Pose = Floats
 UnitKind = Literal["track", "positioner", "gantry", "servo"]
 AXES = "abcdef"
 """External axes of a target, eax_a to eax_f: logical axes 7 to 12."""
-NOT_THERE = 9e9
-"""Value of an external axis that a target does not give."""
 
 
 @dataclass(frozen=True)

@@ -90,7 +90,6 @@ def _edits(checks: Checks, refused: Collection[str]) -> Edits:
 
 
 def _edited(job: Job, edits: Edits) -> Job:
-    """A job with its program edited."""
     program = job.program
     files = [
         replace(file, content=file.encoded(edited(module.source, edits.get(file.path, {}))))

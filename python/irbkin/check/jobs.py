@@ -46,7 +46,7 @@ def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Sett
     wrong: list[FileFinding] = []
     for name in given:
         before = len(wrong)
-        own = files_of(name, wrong) if isinstance(name, str) else [name]
+        own = [*files_of(name, wrong)] if isinstance(name, str) else [name]
         if not own and len(wrong) == before:
             raise IrbkinError(f"{name}: has no RAPID modules ({', '.join(ENDINGS)})")
         files += [file for file in own if not settings.excludes(file.path)]

@@ -90,7 +90,6 @@ class Programs:
 
 
 def _no_arm(backup: Backup, task: Task) -> str:
-    """The reason why the arm of a task is unknown."""
     unit = backup.robots.get(task.robot or "")
     why = f"its arm {unit.type} is not checked" if unit else "which robot it moves is not known"
     return f"{task.name}: {why}, only its text is"

@@ -10,9 +10,9 @@ from irbkin import Cell, Robot, __version__
 from irbkin._arguments import Bar, Report, count
 from irbkin._arrays import Floats, rotations
 from irbkin._grids import ReachMap
-from irbkin.errors import InvalidPoseError
+from irbkin.errors import InvalidPoseError, IrbkinError
 from irbkin.map._solved import Grid
-from irbkin.map._store import FIELDS, checked_output, is_in, job_of, load, records
+from irbkin.map._store import FIELDS, is_in, job_of, load, records
 
 
 def orientations(directions: int, turns: int = 1) -> Floats:
@@ -87,7 +87,9 @@ def reach(
         FileExistsError: `output` is the map of something else.
         FileNotFoundError: The folder of `output` does not exist.
     """
-    path = None if output is None else checked_output(output)
+    path = None if output is None else Path(output)
+    if path is not None and path.suffix != ".npz":
+        raise IrbkinError(f"output must be a file .npz, got {path}")
     grid = Grid(robot, (x, y, z), orientations, q7, cell, threads, block, progress)
     if path is not None:
         _write(grid, path)

@@ -71,7 +71,10 @@ class Grid:
             for low in range(0, count, at_once):
                 high = min(low + at_once, count)
                 rows, now = slice(low, high), poses[: high - low]
-                now[..., :3, 3] = self.positions(first + low, first + high)[:, None]
+                # By their number, x the slowest.
+                indices = np.unravel_index(np.arange(first + low, first + high), self.shape)
+                for column, (axis, index) in enumerate(zip(self.axes, indices, strict=True)):
+                    now[..., column, 3] = axis[index, None]
                 found = self.robot.ik_margin(now, self.q7, threads=self.threads, cell=self.cell)
                 reached[rows] += (found.solutions > 0).sum(axis=1)
                 solutions[rows] += found.solutions.sum(axis=1, dtype=np.int64)
@@ -82,11 +85,6 @@ class Grid:
         for field in (margin, singularities):
             field[reached == 0] = np.nan
         return made
-
-    def positions(self, first: int, last: int) -> Floats:
-        """Positions by their number, x the slowest, shape (last - first, 3)."""
-        indices = np.unravel_index(np.arange(first, last), self.shape)
-        return np.stack([axis[index] for axis, index in zip(self.axes, indices, strict=True)], -1)
 
 
 def _rotations(robot: Robot, given: npt.ArrayLike, q7: float | None) -> Floats:

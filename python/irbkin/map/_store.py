@@ -103,13 +103,6 @@ def _arrays(path: Path, names: Sequence[str]) -> dict[str, npt.NDArray[Any]]:
             raise IrbkinError(f"{path} is not a map: {fault}") from fault
 
 
-def checked_output(output: str | PathLike[str]) -> Path:
-    """The path of a map, which ends in .npz."""
-    if (path := Path(output)).suffix != ".npz":
-        raise IrbkinError(f"output must be a file .npz, got {path}")
-    return path
-
-
 def load(path: str | PathLike[str]) -> ReachMap:
     """Read a map that `reach` has written.
 

@@ -40,7 +40,6 @@ def whole(figure: Canvas) -> Figure:
 
 
 def tidy(axes: Axes) -> None:
-    """Give axes the look of all pictures."""
     axes.grid(visible=True, color="#dddddd", linewidth=0.6)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)

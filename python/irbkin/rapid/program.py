@@ -128,11 +128,6 @@ def load_program(path: str | PathLike[str] | Iterable[str | PathLike[str]]) -> P
     return program_of(files, findings)
 
 
-def files_of(path: str, findings: list[FileFinding]) -> list[ModuleFile]:
-    """Return the files of a module, a list or a folder; add what is wrong with them to findings."""
-    return [ModuleFile(name, content) for name, content in _contents(path, findings)]
-
-
 def program_of(files: Iterable[ModuleFile], findings: Iterable[FileFinding] = ()) -> Program:
     """Return the program of files that are read; findings on them as before."""
     files = list(files)
@@ -158,12 +153,12 @@ def program_from(
     return Program(tuple(modules), tuple(files), tuple(found))
 
 
-def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of a path with their bytes."""
+def files_of(path: str, findings: list[FileFinding]) -> Iterator[ModuleFile]:
+    """Yield the files of a module, a list or a folder; add what is wrong with them to findings."""
     if os.path.isdir(path):
         for name in modules_in(path):
             try:
-                yield name, read(name)
+                yield ModuleFile(name, read(name))
             except OSError as error:
                 message = f"cannot be read: {error.strerror}"
                 findings.append(FileFinding(name, 0, 0, "E002", message))
@@ -173,7 +168,7 @@ def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, byt
     elif path.lower().endswith(LIST):
         yield from _listed(path, findings)
     else:
-        yield path, read(path)
+        yield ModuleFile(path, read(path))
 
 
 def modules_in(folder: str) -> list[str]:
@@ -195,7 +190,7 @@ def _is_inside(path: str, root: str) -> bool:
     return os.path.commonpath([path, root]) == root
 
 
-def _listed(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes]]:
+def _listed(path: str, findings: list[FileFinding]) -> Iterator[ModuleFile]:
     """Yield the files that a .pgf lists."""
     text = Path(path).read_bytes().decode("utf-8", "replace")
     folder = os.path.dirname(path)
@@ -215,7 +210,7 @@ def _listed(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes
         if wrong:
             findings.append(FileFinding(path, line, 1, "E002", f"{name}: {wrong}"))
             continue
-        yield target, Path(target).read_bytes()
+        yield ModuleFile(target, Path(target).read_bytes())
 
 
 def _doubled(files: Sequence[ModuleFile], modules: Sequence[Module]) -> Iterator[FileFinding]:

@@ -33,7 +33,13 @@ def render(report: Report) -> str:
     names += [name for name in others if name not in names]
     index = {name: module for module, name in enumerate(names)}
     modules = [{"name": name, "text": report.text_of(name).text} for name in names]
-    procedures, moves = _procedures(job), _moves(job, checked)
+    procedures = [
+        {"module": index, "name": it.name}
+        for index, module in enumerate(job.program.modules)
+        for it in module.routines
+        if it.kind == "PROC"
+    ]
+    moves = _moves(job, checked)
     program: dict[str, Any] = {
         "words": f"{report.coverage} {report.conclusion}",
         "modules": modules or [{"name": job.title, "text": ""}],
@@ -52,22 +58,12 @@ def render(report: Report) -> str:
 
 
 def _finding(found: Finding, index: dict[str, int]) -> dict[str, Any]:
-    """A finding as the engine of a page has it."""
     edits = [
         {"module": index[file], "begin": begin, "end": end, "text": text}
         for file, begin, end, text in found.edits
     ]
     own = {key: getattr(found, key) for key in FINDING}
     return {**own, "shown": True, "module": index[found.file], "edits": edits}
-
-
-def _procedures(job: Job) -> list[dict[str, Any]]:
-    return [
-        {"module": index, "name": it.name}
-        for index, module in enumerate(job.program.modules)
-        for it in module.routines
-        if it.kind == "PROC"
-    ]
 
 
 def _moves(job: Job, checked: Checked) -> list[dict[str, Any]]:

@@ -162,7 +162,6 @@ class Server:
         return session.reply()
 
     def _waiting(self) -> Iterator[tuple[bytes, object]]:
-        """The datagrams that wait in the socket."""
         self._socket.settimeout(0.0)
         for _ in range(MOST_WAITING):
             try:

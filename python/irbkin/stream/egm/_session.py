@@ -152,7 +152,6 @@ class Session:
 
     @property
     def statistics(self) -> Statistics:
-        """The counts until now."""
         return Statistics(**self._count)
 
     def end(self, error: BaseException | None = None) -> None:
