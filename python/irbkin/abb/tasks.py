@@ -138,8 +138,10 @@ class TaskReader:
         keys = sorted(key for key in found.values if key.startswith("mechanicalunit"))
         named = [it for it in (found.text("Robot"), *map(found.text, keys)) if it]
         names = [it for mechanical in named for it in self.resolved(mechanical)]
+        # Axis 7 of a robot is a unit, too.
+        known = {*self.robots, *(f"{it}_7" for it in self.robots), *self.units}
         for name in names:
-            if self.moc.file and not self.is_known(name.lower()):
+            if self.moc.file and name.lower() not in known:
                 message = f"{source.name}: {name} of its group {group} is no unit of MOC.cfg"
                 self.findings.append(
                     Finding(self.sys.file, found.line, "group", "warning", message)
@@ -154,10 +156,6 @@ class TaskReader:
         if mechanical is None or name.lower() in {*self.robots, *self.units}:
             return [name]
         return [mechanical.text(key) for key in sorted(mechanical.values) if key.startswith(USES)]
-
-    def is_known(self, name: str) -> bool:
-        """Whether a name in lower case is a unit, or axis 7 of a robot."""
-        return name in self.robots or name in self.units or name.removesuffix("_7") in self.robots
 
     def report_unassigned(self, tasks: list[Task]) -> None:
         """Report which tasks have no robot although there are several, once."""

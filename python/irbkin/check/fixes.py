@@ -16,8 +16,6 @@ from irbkin.rapid.program import program_of
 
 PASSES = 10
 """Iterations of correction and check, beyond one for each file."""
-
-
 Text = tuple[ModuleFile, str, str]
 """A file, its text before and after corrections."""
 Edits = dict[str, dict[int, tuple[int, str]]]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import functools
-import math
 import os
 import re
 from collections.abc import Sequence
@@ -232,16 +231,6 @@ def pose_of(numbers: Sequence[float], name: str) -> tuple[Floats, str]:
     words = f"tool at {' '.join(texts[:3])} mm"
     kind = {3: "wxyz 1 0 0 0, as no orientation is given", 6: "rz ry rx ", 7: "wxyz "}
     return frame(numbers, name), f"{words}, {kind.get(len(numbers), '')}{' '.join(texts[3:])}"
-
-
-def read_q7(arguments: argparse.Namespace, robot: Robot) -> float | None:
-    """The angle of joint 7 [rad], which the arm takes if it has seven joints."""
-    q7: float | None = arguments.q7
-    if robot.dof == 7 and q7 is None:
-        raise CommandError(f"{robot.name} has seven joints: give --q7, the angle of joint 7 [deg]")
-    if robot.dof != 7 and q7 is not None:
-        raise CommandError(f"--q7 is for arms of seven joints, {robot.name} has {robot.dof}")
-    return None if q7 is None else math.radians(q7)
 
 
 def joints(words: Sequence[float | str] | None, name: str, dof: int) -> Floats | None:

@@ -11,21 +11,14 @@ Examples:
 """
 
 import argparse
+import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from irbkin import Robot, Status, UnreachableError
-from irbkin.cli.arguments import (
-    Parser,
-    joints,
-    pose_of,
-    read_pose,
-    read_q7,
-    read_robot,
-    read_wobj,
-)
+from irbkin.cli.arguments import Parser, joints, pose_of, read_pose, read_robot, read_wobj
 from irbkin.cli.data import is_data
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.numbers import angle, confdata, joint_and_angle, number
@@ -95,10 +88,14 @@ def _check(arguments: argparse.Namespace, robot: Robot) -> None:
         raise CommandError("--given goes without --q7, --seed and --confdata")
     if seed and own:
         raise CommandError("--seed and --confdata: give one of them")
+    is_all = not (seed or own)
     if robot.dof != 7:
-        for name in ("given",) * given + ("arm-angle",) * arm_angle:
+        q7 = is_all and arguments.q7 is not None
+        for name in ("given",) * given + ("arm-angle",) * arm_angle + ("q7",) * q7:
             words = f"--{name} is for arms of seven joints, {robot.name} has {robot.dof}"
             raise CommandError(words)
+    elif is_all and not given and arguments.q7 is None:
+        raise CommandError(f"{robot.name} has seven joints: give --q7, the angle of joint 7 [deg]")
     if own:
         # Refused for an arm without confdata.
         robot.configuration(np.zeros(robot.dof))
@@ -132,10 +129,9 @@ class _All:
     """All solutions of poses, a row each."""
 
     def __init__(self, arguments: argparse.Namespace, robot: Robot, *, is_one: bool) -> None:
-        self.robot, self.q7, self.is_one = robot, None, is_one
-        if arguments.given is None:
-            self.q7 = read_q7(arguments, robot)
-        else:
+        self.robot, self.is_one = robot, is_one
+        self.q7 = None if arguments.q7 is None else math.radians(arguments.q7)
+        if arguments.given is not None:
             joint, degrees = arguments.given
             self.robot = robot.locked({joint: np.radians(degrees)})
         self.wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)

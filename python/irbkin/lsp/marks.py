@@ -25,9 +25,7 @@ KINDS = {
     "RECORD": types.SymbolKind.Struct,
     "ALIAS": types.SymbolKind.Struct,
 }
-
 COMMENTS = re.compile(r"^[ \t]*!.*(?:\n[ \t]*!.*)+", re.MULTILINE)
-
 Edits = dict[str, dict[tuple[int, int], types.TextEdit]]
 """Edits by file and bytes."""
 

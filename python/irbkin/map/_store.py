@@ -26,8 +26,6 @@ RECORD = np.dtype([*FIELDS.items()])
 """The numbers of a position."""
 INPUTS = ("robot", "q7", "cell", "version of irbkin")
 """Inputs of a map beside its grid."""
-
-
 GRID = ("x", "y", "z", "orientations")
 Job = Mapping[str, npt.NDArray[Any]]
 """The inputs of a map, as its file has them beside the numbers: digests, "job", and GRID."""
