@@ -61,7 +61,7 @@ class Grid:
         count = last - first
         made = np.zeros(count, RECORD)
         reached, solutions, margin, singularities = (made[name] for name in FIELDS)
-        margin[:] = singularities[:] = np.inf
+        margin[:] = singularities[:] = np.nan
         for start in range(0, len(self.orientations), AT_A_TIME):
             rotations = self.orientations[start : start + AT_A_TIME]
             at_once = min(count, max(1, AT_A_TIME // len(rotations)))
@@ -82,8 +82,6 @@ class Grid:
                 margin[rows] = np.fmin(margin[rows], np.fmin.reduce(found.margin, axis=1))
                 least = np.fmin.reduce(found.singularities, axis=1)
                 singularities[rows] = np.fmin(singularities[rows], least)
-        for field in (margin, singularities):
-            field[reached == 0] = np.nan
         return made
 
 
