@@ -9,6 +9,7 @@ use core::ops::Range;
 use crate::rapid::data::finding::{Edit, Finding};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::Move;
+use crate::rapid::expression::evaluate::positive_whole;
 use crate::rapid::expression::functions::displaces;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
@@ -205,11 +206,7 @@ fn element(indices: &[Expression<'_>], sizes: &[usize]) -> Option<usize> {
     let mut place = 0;
     for (index, size) in indices.iter().zip(sizes) {
         let Form::Number(value) = index.form else { return None };
-        let index = (1..=*size).find(|index| {
-            #[expect(clippy::cast_precision_loss, reason = "an index")]
-            let index = *index as f64;
-            index.total_cmp(&value).is_eq()
-        })?;
+        let index = positive_whole(value).filter(|index| index <= size)?;
         place = place * size + index - 1;
     }
     Some(place)

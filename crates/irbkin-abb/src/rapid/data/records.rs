@@ -6,7 +6,7 @@ use core::fmt;
 
 use super::types::{
     Atoms, JOINTTARGET, LOADDATA, POSE, Part, ROBTARGET, Record, SPEEDDATA, Source, TOOLDATA, Type,
-    WOBJDATA, ZONEDATA, write,
+    WOBJDATA, ZONEDATA,
 };
 use irbkin::Configuration;
 
@@ -46,7 +46,7 @@ macro_rules! records {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 let mut atoms = Atoms::new();
                 self.put(&mut atoms);
-                write(f, Self::TYPE, &atoms)
+                Self::TYPE.write(f, &mut atoms.iter())
             }
         }
     )*};

@@ -103,6 +103,14 @@ impl Type {
         Some((components[place].1, before))
     }
 
+    /// The type that components lead to, and the atoms before it.
+    pub(crate) fn part(&'static self, components: &[&str]) -> Option<(&'static Self, usize)> {
+        components.iter().try_fold((self, 0), |(of, begin), component| {
+            let (part, before) = of.component(component)?;
+            Some((part, begin + before))
+        })
+    }
+
     /// The words for an expected value, for a message.
     pub(crate) fn wanted(&self) -> &'static str {
         match self.shape {
@@ -114,7 +122,7 @@ impl Type {
     }
 
     /// Write atoms as RAPID does, without blanks.
-    fn write<'a>(
+    pub(crate) fn write<'a>(
         &self,
         f: &mut fmt::Formatter<'_>,
         atoms: &mut impl Iterator<Item = &'a Atom>,
@@ -159,11 +167,6 @@ pub(crate) fn are_finite(atoms: &Atoms) -> bool {
     atoms.iter().all(|atom| !matches!(atom, Atom::Num(number) if !number.is_finite()))
 }
 
-/// Write the atoms of a value of a type.
-pub(crate) fn write(f: &mut fmt::Formatter<'_>, of: &Type, atoms: &Atoms) -> fmt::Result {
-    of.write(f, &mut atoms.iter())
-}
-
 /// A value in memory that consists of atoms.
 pub(crate) trait Part: Sized {
     /// Append its atoms.
@@ -176,6 +179,18 @@ pub(crate) trait Part: Sized {
 /// A part with a type of its own.
 pub(crate) trait Record: Part {
     const TYPE: &'static Type;
+}
+
+impl Record for f64 {
+    const TYPE: &'static Type = &NUM;
+}
+
+impl Record for [f64; 3] {
+    const TYPE: &'static Type = &POS;
+}
+
+impl Record for [f64; 4] {
+    const TYPE: &'static Type = &ORIENT;
 }
 
 macro_rules! atom {

@@ -7,7 +7,7 @@ use super::records::{
 };
 use super::types::{
     Atoms, CONFDATA, DNUM, EXTJOINT, JOINTTARGET, LOADDATA, NUM, ORIENT, POS, POSE, Part,
-    ROBTARGET, SPEEDDATA, TOOLDATA, Type, WOBJDATA, ZONEDATA, write,
+    ROBTARGET, SPEEDDATA, TOOLDATA, Type, WOBJDATA, ZONEDATA,
 };
 use irbkin::Configuration;
 
@@ -130,7 +130,7 @@ impl Value {
 impl fmt::Display for Value {
     /// As RAPID writes it: `[[x, y, z], ...]` without blanks.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write(f, self.data_type().described(), &self.atoms())
+        self.data_type().described().write(f, &mut self.atoms().iter())
     }
 }
 

@@ -70,7 +70,7 @@ impl WrittenContent<'_> {
         }
         let mut sizes = Vec::with_capacity(self.sizes.len());
         for (i, size) in self.sizes.iter().enumerate() {
-            let value = evaluator.number(size)?;
+            let value = evaluator.record(size)?;
             let fault = || {
                 let (thing, dimension) = (thing(), i + 1);
                 evaluator.fault(size, RapidFaultKind::ArrayDimension { thing, dimension, value })

@@ -5,7 +5,7 @@ use alloc::string::{String, ToString};
 
 use super::names::{At, Names};
 use super::tree::{Expression, Form, Unread, written};
-use crate::rapid::data::types::{Atom, Atoms, NUM, Part, Record, Shape, Type};
+use crate::rapid::data::types::{Atom, Atoms, Record, Shape, Type};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
@@ -86,16 +86,10 @@ impl Evaluator<'_, '_> {
         Value::of(data_type, atoms).ok_or_else(|| Reason::Unfinished.into())
     }
 
-    /// Evaluate to a record.
+    /// Evaluate to a record, a number, a vector or a rotation.
     pub(crate) fn record<T: Record>(&self, expression: &Expression<'_>) -> Result<T, Stop> {
         let atoms = self.atoms(expression, T::TYPE)?;
         T::take(&mut atoms.into_iter()).ok_or_else(|| Reason::Unfinished.into())
-    }
-
-    /// Evaluate to a number.
-    pub(crate) fn number(&self, expression: &Expression<'_>) -> Result<f64, Stop> {
-        let atoms = self.atoms(expression, &NUM)?;
-        f64::take(&mut atoms.into_iter()).ok_or_else(|| Reason::Unfinished.into())
     }
 
     /// The atoms of a value of a type.

@@ -8,7 +8,7 @@ use alloc::string::String;
 use super::evaluate::{Component, Evaluator, Stop, whole};
 use super::geometry::{cross, difference, product, scaled, sum};
 use super::tree::{Expression, Form, Operator};
-use crate::rapid::data::types::{Atoms, ORIENT, POS, Part, Shape};
+use crate::rapid::data::types::{Atom, Atoms, ORIENT, POS, Shape};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::text::fault::RapidFaultKind;
 
@@ -34,19 +34,16 @@ impl Evaluator<'_, '_> {
             return Err(Reason::Arithmetic { type_name: place.of.name }.into());
         }
         let wrong = |found| Err(self.wrong_type(expression, place, found));
-        let finite = |number: &f64| self.finite(expression, *number);
-        match self.quantity(expression)? {
-            Quantity::Pos(vector) if place.of.name == POS.name => {
-                vector.iter().try_for_each(|number| finite(number).map(|_| ()))?;
-                vector.map(|number| number + 0.0).put(atoms);
-            }
-            Quantity::Orient(rot) if place.of.name == ORIENT.name => {
-                rot.iter().try_for_each(|number| finite(number).map(|_| ()))?;
-                rot.map(|number| number + 0.0).put(atoms);
-            }
+        let quantity = self.quantity(expression)?;
+        let numbers: &[f64] = match &quantity {
+            Quantity::Pos(vector) if place.of.name == POS.name => vector,
+            Quantity::Orient(rot) if place.of.name == ORIENT.name => rot,
             Quantity::Num(_) => return wrong("a number"),
             Quantity::Pos(_) => return wrong("a pos"),
             Quantity::Orient(_) => return wrong("an orient"),
+        };
+        for number in numbers {
+            atoms.push(Atom::Num(self.finite(expression, *number)? + 0.0));
         }
         Ok(())
     }
@@ -54,15 +51,15 @@ impl Evaluator<'_, '_> {
     /// A sum, a product or a negated number.
     fn arithmetic(&self, expression: &Expression<'_>) -> Result<f64, Stop> {
         let result = match &expression.form {
-            Form::Negated(operand) => -self.number(operand)?,
+            Form::Negated(operand) => -self.record::<f64>(operand)?,
             Form::Chain(first, rest) => {
-                let mut result = self.number(first)?;
+                let mut result = self.record(first)?;
                 for (operator, operand) in rest {
-                    result = self.combined(expression, result, *operator, self.number(operand)?)?;
+                    result = self.combined(expression, result, *operator, self.record(operand)?)?;
                 }
                 result
             }
-            _ => self.number(expression)?,
+            _ => self.record(expression)?,
         };
         self.finite(expression, result)
     }
@@ -101,8 +98,10 @@ impl Evaluator<'_, '_> {
     fn quantity(&self, expression: &Expression<'_>) -> Result<Quantity, Stop> {
         let no_arithmetic = |type_name| Err(Reason::Arithmetic { type_name }.into());
         match &expression.form {
-            Form::Aggregate(parts) if parts.len() == 3 => self.vector(expression),
-            Form::Aggregate(_) => self.rotation(expression),
+            Form::Aggregate(parts) if parts.len() == 3 => {
+                self.record(expression).map(Quantity::Pos)
+            }
+            Form::Aggregate(_) => self.record(expression).map(Quantity::Orient),
             Form::Negated(operand) => match self.quantity(operand)? {
                 Quantity::Num(number) => Ok(Quantity::Num(-number)),
                 Quantity::Pos(vector) => Ok(Quantity::Pos(scaled(vector, -1.0))),
@@ -117,23 +116,11 @@ impl Evaluator<'_, '_> {
                 Ok(result)
             }
             _ => match self.type_name(expression).as_deref() {
-                Some("pos") => self.vector(expression),
-                Some("orient") => self.rotation(expression),
-                _ => self.number(expression).map(Quantity::Num),
+                Some("pos") => self.record(expression).map(Quantity::Pos),
+                Some("orient") => self.record(expression).map(Quantity::Orient),
+                _ => self.record(expression).map(Quantity::Num),
             },
         }
-    }
-
-    fn vector(&self, expression: &Expression<'_>) -> Result<Quantity, Stop> {
-        let atoms = self.atoms(expression, &POS)?;
-        let vector = Part::take(&mut atoms.into_iter()).map(Quantity::Pos);
-        vector.ok_or_else(|| Reason::Unfinished.into())
-    }
-
-    fn rotation(&self, expression: &Expression<'_>) -> Result<Quantity, Stop> {
-        let atoms = self.atoms(expression, &ORIENT)?;
-        let rotation = Part::take(&mut atoms.into_iter()).map(Quantity::Orient);
-        rotation.ok_or_else(|| Reason::Unfinished.into())
     }
 
     /// Two values combined, by the table of operators of the RAPID reference manual.

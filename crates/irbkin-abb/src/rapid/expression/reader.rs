@@ -35,9 +35,6 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
 
     /// The expression that begins at the next token.
     pub(crate) fn expression(&mut self) -> Result<Expression<'a>, RapidFault> {
-        if let Some(alone) = self.alone()? {
-            return Ok(alone);
-        }
         let start = self.tokens.peek().start;
         let sum = self.sum()?;
         if self.at_end_of_expression() {
@@ -53,27 +50,6 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             return Err(self.tokens.lacking("an operator, a comma or the end of the expression"));
         }
         Ok(self.made(start, Form::Unread(Unread::Operator)))
-    }
-
-    /// A single number or name, most of a module: read without looking for operators.
-    fn alone(&mut self) -> Result<Option<Expression<'a>>, RapidFault> {
-        let (first, mark) = (self.tokens.peek(), self.tokens.mark());
-        let form = match first.kind {
-            TokenKind::Number(value) => Form::Number(value),
-            TokenKind::Name if !is_reserved(self.tokens.text_of(first)) => {
-                Form::Name(self.tokens.text_of(first))
-            }
-            _ => return Ok(None),
-        };
-        self.tokens.take()?;
-        let TokenKind::Symbol(b',' | b';' | b']' | b')' | b'\\') = self.tokens.peek().kind else {
-            self.tokens.rewind(mark);
-            return Ok(None);
-        };
-        if let Form::Name(name) = form {
-            self.collect(name);
-        }
-        Ok(Some(self.made(first.start, form)))
     }
 
     fn collect(&mut self, name: &'a str) {
@@ -105,12 +81,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         open: Token,
         close: u8,
     ) -> Result<Vec<Expression<'a>>, RapidFault> {
-        self.depth += 1;
-        if self.depth > DEEPEST_NESTING {
-            return Err(self
-                .tokens
-                .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
-        }
+        self.begin(open)?;
         let mut expressions = Vec::new();
         if !self.tokens.peek().is(close) {
             expressions.reserve_exact(USUAL_COMPONENTS);
@@ -121,6 +92,15 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         self.close(open, close)?;
         Ok(expressions)
+    }
+
+    fn begin(&mut self, open: Token) -> Result<(), RapidFault> {
+        self.depth += 1;
+        if self.depth > DEEPEST_NESTING {
+            let kind = RapidFaultKind::TooDeep { bound: DEEPEST_NESTING };
+            return Err(self.tokens.fault(open.start, kind));
+        }
+        Ok(())
     }
 
     fn close(&mut self, open: Token, close: u8) -> Result<(), RapidFault> {
@@ -229,10 +209,11 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     fn parenthesis(&mut self, open: Token) -> Result<Expression<'a>, RapidFault> {
         self.tokens.take()?;
         let mut inside = self.list(open, b')')?;
-        match (inside.pop(), inside.is_empty()) {
-            (Some(only), true) => Ok(self.made(open.start, only.form)),
-            _ => Err(self.tokens.fault(open.start, expected_value("()"))),
+        if let (Some(only), true) = (inside.pop(), inside.is_empty()) {
+            return Ok(self.made(open.start, only.form));
         }
+        let (found, wanted) = ("()".to_string(), "a value");
+        Err(self.tokens.fault(open.start, RapidFaultKind::Unexpected { found, wanted }))
     }
 
     /// TRUE, FALSE, a function or a reference.
@@ -270,12 +251,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     }
 
     fn call(&mut self, token: Token, open: Token) -> Result<Call<'a>, RapidFault> {
-        self.depth += 1;
-        if self.depth > DEEPEST_NESTING {
-            return Err(self
-                .tokens
-                .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
-        }
+        self.begin(open)?;
         let name = self.tokens.text_of(token);
         let mut arguments = Arguments::default();
         let mut fit = Fit::of(Entry::function(name));
@@ -299,20 +275,13 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     /// A required argument: its value, perhaps after its name and `:=`. The name is not kept:
     /// RAPID's required arguments are in order.
     pub(crate) fn argument(&mut self) -> Result<Expression<'a>, RapidFault> {
-        if self.tokens.at_assigned_name() {
-            self.tokens.take()?;
-            self.tokens.take()?;
-        }
+        self.tokens.take_argument_name()?;
         self.expression()
     }
 
     /// `Name`, `Name:=value` or `Name?parameter`; the backslash is already read.
     pub(crate) fn optional(&mut self) -> Result<(&'a str, Option<Expression<'a>>), RapidFault> {
-        if self.tokens.peek().kind != TokenKind::Name || self.tokens.begins_statement(false) {
-            return Err(self.tokens.lacking("the name of an optional argument"));
-        }
-        let token = self.tokens.take()?;
-        let name = self.tokens.text_of(token);
+        let name = self.tokens.take_option_name()?;
         // \Name?parameter passes on the caller's own argument, if there is one; the question mark
         // belongs to the value.
         let mark = self.tokens.peek();
@@ -331,8 +300,4 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     fn made(&self, start: usize, form: Form<'a>) -> Expression<'a> {
         Expression { start, end: self.tokens.last_end, form }
     }
-}
-
-fn expected_value(found: &str) -> RapidFaultKind {
-    RapidFaultKind::Unexpected { found: found.to_string(), wanted: "a value" }
 }

@@ -176,10 +176,7 @@ impl Evaluator<'_, '_> {
             }
             _ => return None,
         };
-        let whole = value.data_type().described();
-        let of = components.iter().try_fold(whole, |of, component| {
-            of.component(component).map(|(component, _)| component)
-        })?;
+        let (of, _) = value.data_type().described().part(components)?;
         Some(of.name.to_string())
     }
 
@@ -211,7 +208,7 @@ impl Evaluator<'_, '_> {
         let constant = Self { constant: true, ..*self };
         let mut element = 0;
         for (index, size) in indices.iter().zip(sizes) {
-            let value = match constant.number(index) {
+            let value = match constant.record(index) {
                 Err(Stop::Unknown(reason)) if may_be_any(&reason) => {
                     let text = self.text.get(index.start..index.end).unwrap_or_default();
                     let chosen = self.names.element(text, *size).ok_or(reason)?;

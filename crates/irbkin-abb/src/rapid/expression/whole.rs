@@ -88,7 +88,7 @@ impl<'t, 'a> WholeReader<'t, 'a> {
                     return Ok(true);
                 }
             }
-            TokenKind::Name if is_operator(self.tokens.text_of(token)) => {}
+            TokenKind::Name if OPERATORS.iter().any(|word| self.tokens.at_word(word)) => {}
             _ => return Ok(false),
         }
         self.tokens.take()?;
@@ -197,10 +197,7 @@ impl<'t, 'a> WholeReader<'t, 'a> {
                 self.optional(fit)?;
                 continue;
             }
-            if self.tokens.at_assigned_name() {
-                self.tokens.take()?;
-                self.tokens.take()?;
-            }
+            self.tokens.take_argument_name()?;
             let first = self.tokens.peek();
             self.expression()?;
             if Some(fit.required()) == wanted && first.kind == TokenKind::Name {
@@ -212,14 +209,11 @@ impl<'t, 'a> WholeReader<'t, 'a> {
 
     /// `Name`, `Name:=value` or `Name?parameter`; the backslash is already read.
     fn optional(&mut self, fit: &mut Fit<'_>) -> Result<(), RapidFault> {
-        if self.tokens.peek().kind != TokenKind::Name || self.tokens.begins_statement(false) {
-            return Err(self.tokens.lacking("the name of an optional argument"));
-        }
-        let token = self.tokens.take()?;
-        let has_value = self.tokens.peek().kind == TokenKind::Assign;
-        let is_passed_on = self.tokens.peek().is(b'?');
-        fit.optional(self.tokens.text_of(token), has_value || is_passed_on);
-        if has_value || is_passed_on {
+        let name = self.tokens.take_option_name()?;
+        let next = self.tokens.peek();
+        let has_value = next.kind == TokenKind::Assign || next.is(b'?');
+        fit.optional(name, has_value);
+        if has_value {
             self.tokens.take()?;
             self.expression()?;
         }
@@ -251,8 +245,4 @@ pub(crate) fn note(tokens: &mut Tokens<'_>, name: Token, is_function: bool, fit:
     } else if let Some(wrong) = fit.finished() {
         tokens.calls.push(Called { name, is_function, wrong: Some(wrong) });
     }
-}
-
-fn is_operator(word: &str) -> bool {
-    OPERATORS.iter().any(|operator| operator.eq_ignore_ascii_case(word))
 }

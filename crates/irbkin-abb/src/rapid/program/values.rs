@@ -19,7 +19,7 @@ use crate::rapid::data::records::GivenTools;
 use crate::rapid::data::types::{Atoms, Record};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
-use crate::rapid::expression::evaluate::{Evaluator, Stop};
+use crate::rapid::expression::evaluate::{Evaluator, Stop, positive_whole};
 use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, Question, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Call, Expression, Form};
@@ -240,7 +240,7 @@ impl<'s> Scope<'s, '_> {
 
     /// The number that an expression of a statement is.
     pub(super) fn number(&self, text: &str, expression: &Expression<'_>) -> Result<f64, Reason> {
-        known(self.evaluator(text).number(expression))
+        known(self.evaluator(text).record(expression))
     }
 
     /// Whether what the declarations say of a text may not hold: it is passed to a routine that
@@ -300,13 +300,14 @@ impl<'s> Scope<'s, '_> {
             Content::Array { sizes, values } if sizes.len() == indices.len() => {
                 let mut element = 0;
                 for (index, size) in indices.iter().zip(sizes.iter()) {
-                    element = element * size + self.index(text, index, *size)?;
+                    let index = positive_whole(self.number(text, index).ok()?);
+                    element = element * size + index.filter(|index| index <= size)? - 1;
                 }
                 values.get_mut(element)?
             }
             _ => return None,
         };
-        let (begin, _) = place_of(data_type, components)?;
+        let (_, begin) = data_type.described().part(components)?;
         let mut atoms = place.atoms();
         for (own, new) in atoms.get_mut(begin..)?.iter_mut().zip(part) {
             *own = new;
@@ -326,13 +327,6 @@ impl<'s> Scope<'s, '_> {
         }
     }
 
-    /// An index of an array, from 0.
-    fn index(&self, text: &str, index: &Expression<'_>, size: usize) -> Option<usize> {
-        let value = self.number(text, index).ok()?;
-        #[expect(clippy::cast_precision_loss, reason = "an index")]
-        (0..size).find(|from_zero| ((from_zero + 1) as f64).total_cmp(&value).is_eq())
-    }
-
     /// The atoms of a value for a component of a type.
     fn part(
         &self,
@@ -341,7 +335,7 @@ impl<'s> Scope<'s, '_> {
         data_type: DataType,
         components: &[&str],
     ) -> Option<Atoms> {
-        let (_, of) = place_of(data_type, components)?;
+        let (of, _) = data_type.described().part(components)?;
         known(self.evaluator(text).atoms(value, of)).ok()
     }
 }
@@ -350,19 +344,6 @@ pub(super) fn argument(text: &str) -> Result<Expression<'_>, Reason> {
     let invalid = |_| Reason::NoAggregate;
     let mut tokens = Tokens::new(text).map_err(invalid)?;
     ExpressionReader::new(&mut tokens).argument().map_err(invalid)
-}
-
-/// The first atom of a component of a type, and the type of the component.
-fn place_of(
-    data_type: DataType,
-    components: &[&str],
-) -> Option<(usize, &'static crate::rapid::data::types::Type)> {
-    let (mut begin, mut of) = (0, data_type.described());
-    for component in components {
-        let (part, before) = of.component(component)?;
-        (begin, of) = (begin + before, part);
-    }
-    Some((begin, of))
 }
 
 /// A value, or why it is unknown; text that is not as RAPID has it is unknown, too.

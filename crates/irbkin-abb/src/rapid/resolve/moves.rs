@@ -56,7 +56,7 @@ impl<'a> Resolver<'a> {
             None => Ok(None),
             Some(Replacement::Nothing) => Ok(Some(Err(Reason::Unfinished))),
             Some(Replacement::Value(number)) => {
-                known(self.evaluator(step, role).number(number)).map(Some)
+                known(self.evaluator(step, role).record(number)).map(Some)
             }
         }
     }

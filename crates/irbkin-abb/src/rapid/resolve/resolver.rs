@@ -376,13 +376,11 @@ impl<'a> Causes<'a> {
 const ALL: Range<usize> = 0..usize::MAX;
 
 /// The atoms of a component; all if there is no such component.
-pub(crate) fn atoms_of(mut of: &'static Type, components: &[&str]) -> Range<usize> {
-    let mut begin = 0;
-    for component in components {
-        let Some((part, before)) = of.component(component) else { return ALL };
-        (of, begin) = (part, begin + before);
+pub(crate) fn atoms_of(of: &'static Type, components: &[&str]) -> Range<usize> {
+    match of.part(components) {
+        Some((part, begin)) if !components.is_empty() => begin..begin + part.size(),
+        _ => ALL,
     }
-    if components.is_empty() { ALL } else { begin..begin + of.size() }
 }
 
 /// The datum of other modules that a name in lower case refers to, with its module.

@@ -148,11 +148,8 @@ impl<'a> StatementReader<'a> {
             Content::Array { .. } => is_element,
         };
         self.written.contents.get(*index)?.as_ref().filter(|it| is_single(it))?;
-        let mut of = self.written.declared.get(*index)?.data_type.described();
-        for component in components {
-            (of, _) = of.component(component)?;
-        }
-        Some(of)
+        let of = self.written.declared.get(*index)?.data_type.described();
+        of.part(components).map(|(part, _)| part)
     }
 
     /// An instruction that begins with a reserved word, in capitals.

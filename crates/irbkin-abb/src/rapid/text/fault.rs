@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use alloc::string::String;
+use alloc::format;
+use alloc::string::{String, ToString};
 
 use thiserror::Error;
 
@@ -65,9 +66,9 @@ pub enum RapidFaultKind {
     /// `missing`: the component that is missing, or empty.
     #[error(
         "{} has {}, it must have {wanted}{}",
-        Part(.thing, .part),
-        Count(*.found, "component"),
-        Lacking(.missing)
+        named(.thing, .part),
+        counted(*.found, "component"),
+        lacking(.missing)
     )]
     ComponentCount {
         thing: String,
@@ -76,28 +77,28 @@ pub enum RapidFaultKind {
         wanted: usize,
         missing: &'static str,
     },
-    #[error("{} is {found}, it must be {wanted}", Part(.thing, .part))]
+    #[error("{} is {found}, it must be {wanted}", named(.thing, .part))]
     ComponentType { thing: String, part: String, found: String, wanted: &'static str },
-    #[error("{} is {value}, it must be a whole number", Part(.thing, .part))]
+    #[error("{} is {value}, it must be a whole number", named(.thing, .part))]
     NotWhole { thing: String, part: String, value: f64 },
     /// `of`: a type.
     #[error("{text}: {of} has no component {component}")]
     NoSuchComponent { text: String, of: &'static str, component: String },
     #[error(
-        "{thing}: dimension {dimension} has {}, it must have {wanted}", Count(*.found, "element")
+        "{thing}: dimension {dimension} has {}, it must have {wanted}", counted(*.found, "element")
     )]
     ArraySize { thing: String, dimension: usize, found: usize, wanted: usize },
     #[error(
         "{thing}: size of dimension {dimension} is {value}, it must be a positive whole number"
     )]
     ArrayDimension { thing: String, dimension: usize, value: f64 },
-    #[error("{thing} has {}, it must have at most {bound}", Count(*.found, "dimension"))]
+    #[error("{thing} has {}, it must have at most {bound}", counted(*.found, "dimension"))]
     Dimensions { thing: String, found: usize, bound: usize },
     #[error("{text}: index {value} must be a whole number from 1 to {size}")]
     Index { text: String, value: f64, size: usize },
     #[error(
         "{text} has {found} {}, {}",
-        if *.found == 1 { "index" } else { "indices" }, Indices(*.wanted)
+        if *.found == 1 { "index" } else { "indices" }, indices(*.wanted)
     )]
     IndexCount { text: String, found: usize, wanted: usize },
     /// `routine`: `None` for the module.
@@ -116,7 +117,7 @@ pub enum RapidFaultKind {
     ConflictMarker,
     #[error("an encoded module, which is not text, is not read")]
     Encoded,
-    #[error("{instruction} has {}, it must have {wanted}", Count(*.found, "argument"))]
+    #[error("{instruction} has {}, it must have {wanted}", counted(*.found, "argument"))]
     ArgumentCount { instruction: &'static str, found: usize, wanted: usize },
     #[error("{name:?} is not a RAPID identifier (a letter, then letters, digits, _)")]
     NotAName { name: String },
@@ -196,41 +197,25 @@ pub enum FrameFault {
 }
 
 /// "robtarget p10", or "robtarget p10: robconf" for a part.
-struct Part<'a>(&'a str, &'a str);
-
-impl fmt::Display for Part<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.0)?;
-        if self.1.is_empty() { Ok(()) } else { write!(f, ": {}", self.1) }
-    }
+fn named(thing: &str, part: &str) -> String {
+    if part.is_empty() { thing.to_string() } else { format!("{thing}: {part}") }
 }
 
 /// ": x is missing", or nothing.
-struct Lacking<'a>(&'a str);
-
-impl fmt::Display for Lacking<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() { Ok(()) } else { write!(f, ": {} is missing", self.0) }
-    }
+fn lacking(missing: &str) -> String {
+    if missing.is_empty() { String::new() } else { format!(": {missing} is missing") }
 }
 
 /// "1 component", "2 components".
-struct Count(usize, &'static str);
-
-impl fmt::Display for Count {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}{}", self.0, self.1, if self.0 == 1 { "" } else { "s" })
-    }
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 /// The number of indices that an element must have; 0 without an array.
-struct Indices(usize);
-
-impl fmt::Display for Indices {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            0 => f.write_str("but it is not an array"),
-            wanted => write!(f, "it must have {wanted}"),
-        }
+fn indices(wanted: usize) -> String {
+    if wanted == 0 {
+        "but it is not an array".to_string()
+    } else {
+        format!("it must have {wanted}")
     }
 }

@@ -22,6 +22,9 @@ pub(crate) const LONGEST_STRING: usize = 2048;
 /// Characters at the end of a file: blanks, and what some systems append to the text.
 const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
 
+/// RAPID's punctuation.
+const SYMBOLS: &[u8] = b"[](){},;.:\\*+-/=<>|%?";
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TokenKind {
     /// An identifier or a reserved word.
@@ -140,10 +143,23 @@ impl<'a> Tokens<'a> {
         self.last_placeholder.is_some_and(|placeholder| placeholder >= byte)
     }
 
-    /// Whether the next token is a name and `:=` follows it.
-    pub(crate) fn at_assigned_name(&self) -> bool {
-        self.next.kind == TokenKind::Name
-            && self.text[self.skip_blanks(self.next.end)..].starts_with(":=")
+    /// Read the name of a required argument with its `:=`, if it is given.
+    pub(crate) fn take_argument_name(&mut self) -> Result<(), RapidFault> {
+        let behind = self.skip_blanks(self.next.end);
+        if self.next.kind == TokenKind::Name && self.text[behind..].starts_with(":=") {
+            self.take()?;
+            self.take()?;
+        }
+        Ok(())
+    }
+
+    /// Read the name of an optional argument; the backslash is already read.
+    pub(crate) fn take_option_name(&mut self) -> Result<&'a str, RapidFault> {
+        if self.next.kind != TokenKind::Name || self.begins_statement(false) {
+            return Err(self.lacking("the name of an optional argument"));
+        }
+        let name = self.take()?;
+        Ok(self.text_of(name))
     }
 
     /// The current position.
@@ -273,7 +289,7 @@ impl<'a> Tokens<'a> {
                 let (inside, missing) = ("the header".to_string(), "%%%");
                 return Err(self.fault(start, RapidFaultKind::UnexpectedEnd { inside, missing }));
             }
-            Some(symbol) if is_symbol(symbol) => (TokenKind::Symbol(symbol), start + 1),
+            Some(symbol) if SYMBOLS.contains(&symbol) => (TokenKind::Symbol(symbol), start + 1),
             Some(_) => (TokenKind::Name, self.end_of_name(start)?),
         })
     }
@@ -360,33 +376,6 @@ pub(crate) fn behind_blanks(bytes: &[u8], mut at: usize) -> usize {
         }
     }
     at
-}
-
-/// Whether a byte is one of RAPID's punctuation.
-fn is_symbol(byte: u8) -> bool {
-    matches!(
-        byte,
-        b'[' | b']'
-            | b'('
-            | b')'
-            | b'{'
-            | b'}'
-            | b','
-            | b';'
-            | b'.'
-            | b':'
-            | b'\\'
-            | b'*'
-            | b'+'
-            | b'-'
-            | b'/'
-            | b'='
-            | b'<'
-            | b'>'
-            | b'|'
-            | b'%'
-            | b'?'
-    )
 }
 
 /// The end of the placeholder that begins at a byte: capital letters between `<` and `>`, without
