@@ -16,21 +16,14 @@ use crate::rapid::text::words::is_reserved;
 /// Initial capacity for the components of an aggregate: most have four or six.
 const USUAL_COMPONENTS: usize = 6;
 
-/// A reader of expressions that collects, on request, the names that they refer to.
 pub(crate) struct ExpressionReader<'t, 'a> {
     tokens: &'t mut Tokens<'a>,
-    /// Names in the expressions, of functions too, in order.
-    names: Option<&'t mut Vec<&'a str>>,
     depth: usize,
 }
 
 impl<'t, 'a> ExpressionReader<'t, 'a> {
     pub(crate) fn new(tokens: &'t mut Tokens<'a>) -> Self {
-        Self { tokens, names: None, depth: 0 }
-    }
-
-    pub(crate) fn collecting(tokens: &'t mut Tokens<'a>, names: &'t mut Vec<&'a str>) -> Self {
-        Self { tokens, names: Some(names), depth: 0 }
+        Self { tokens, depth: 0 }
     }
 
     /// The expression that begins at the next token.
@@ -50,12 +43,6 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             return Err(self.tokens.lacking("an operator, a comma or the end of the expression"));
         }
         Ok(self.made(start, Form::Unread(Unread::Operator)))
-    }
-
-    fn collect(&mut self, name: &'a str) {
-        if let Some(names) = &mut self.names {
-            names.push(name);
-        }
     }
 
     /// The sizes of an array in braces; empty without braces.
@@ -232,7 +219,6 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         self.tokens.take()?;
         let next = self.tokens.peek();
-        self.collect(name);
         if next.is(b'(') {
             self.tokens.take()?;
             return Ok(Form::Call(Box::new(self.call(token, next)?)));

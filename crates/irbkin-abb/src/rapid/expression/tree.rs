@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use crate::rapid::text::place::excerpt;
 
 /// An expression and the bytes that it takes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Expression<'a> {
     pub(crate) start: usize,
     pub(crate) end: usize,
@@ -23,9 +23,7 @@ impl<'a> Expression<'a> {
             _ => None,
         }
     }
-}
 
-impl<'a> Expression<'a> {
     /// Add the names that it refers to, of functions too.
     pub(crate) fn collect_names(&self, names: &mut Vec<&'a str>) {
         match &self.form {
@@ -55,7 +53,7 @@ impl<'a> Expression<'a> {
 }
 
 /// The form of an expression.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Form<'a> {
     Number(f64),
     /// With its quotes.
@@ -76,7 +74,7 @@ pub(crate) enum Form<'a> {
 }
 
 /// A name, perhaps with indices, perhaps with components.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Reference<'a> {
     pub(crate) name: &'a str,
     pub(crate) indices: Vec<Expression<'a>>,
@@ -84,7 +82,7 @@ pub(crate) struct Reference<'a> {
 }
 
 /// A function with its arguments.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Call<'a> {
     pub(crate) name: &'a str,
     pub(crate) arguments: Arguments<'a>,
@@ -93,7 +91,7 @@ pub(crate) struct Call<'a> {
 }
 
 /// The arguments of a function, an instruction or a call.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Arguments<'a> {
     pub(crate) required: Vec<Expression<'a>>,
     pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,

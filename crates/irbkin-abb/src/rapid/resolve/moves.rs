@@ -12,7 +12,7 @@ use crate::rapid::data::types::Record;
 use crate::rapid::data::unread::{NotRead, Reason, Skipped};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::tree::Expression;
-use crate::rapid::statements::moves::{Replacement, WrittenMove};
+use crate::rapid::statements::moves::WrittenMove;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::place::Place;
 
@@ -45,19 +45,17 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The number of an option, if the move has it.
+    /// The number of an option, with its backslash, if the move has it.
     fn option(
         &self,
         step: &WrittenMove<'a>,
         role: &'static str,
-        option: Option<&Replacement<'a>>,
-    ) -> Result<Option<Result<f64, Reason>>, RapidFault> {
-        match option {
+    ) -> Result<Option<Known<f64>>, RapidFault> {
+        let mut values = step.values.iter();
+        match values.find(|(own, _)| own.eq_ignore_ascii_case(&role[1..])) {
             None => Ok(None),
-            Some(Replacement::Nothing) => Ok(Some(Err(Reason::Unfinished))),
-            Some(Replacement::Value(number)) => {
-                known(self.evaluator(step, role).record(number)).map(Some)
-            }
+            Some((_, None)) => Ok(Some(Err(Reason::Unfinished))),
+            Some((_, Some(number))) => known(self.evaluator(step, role).record(number)).map(Some),
         }
     }
 
@@ -68,7 +66,7 @@ impl<'a> Resolver<'a> {
         speed: &Expression<'a>,
     ) -> Result<Known<SpeedData>, RapidFault> {
         let speed: Known<SpeedData> = known(self.evaluator(step, "speed").record(speed))?;
-        let velocity = self.option(step, "\\V", step.overrides.velocity.as_ref())?;
+        let velocity = self.option(step, "\\V")?;
         Ok(match velocity {
             None => speed,
             Some(velocity) => {
@@ -87,7 +85,7 @@ impl<'a> Resolver<'a> {
             None => Ok(ZoneData::FINE),
             Some(zone) => known(self.evaluator(step, "zone").record(zone))?,
         };
-        let radius = self.option(step, "\\Z", step.overrides.zone.as_ref())?;
+        let radius = self.option(step, "\\Z")?;
         Ok(match radius {
             None => zone,
             Some(radius) => {
@@ -103,14 +101,9 @@ impl<'a> Resolver<'a> {
     /// The places of the arguments of a move; `None` if they are of another instruction.
     fn places(&self, step: &WrittenMove<'a>) -> Option<Places> {
         let evaluator = self.evaluator(step, "");
-        let of_basic = |_: &Expression<'a>| None;
-        let of_other = |argument: &Expression<'a>| evaluator.type_name(argument);
-        let required = step.required.iter();
-        let types: Vec<Option<String>> = if step.instruction.is_basic() {
-            required.map(of_basic).collect()
-        } else {
-            required.map(of_other).collect()
-        };
+        let is_basic = step.instruction.is_basic();
+        let type_of = |it: &Expression<'a>| if is_basic { None } else { evaluator.type_name(it) };
+        let types: Vec<Option<String>> = step.required.iter().map(type_of).collect();
         let types: Vec<Option<&str>> = types.iter().map(Option::as_deref).collect();
         step.instruction.places(&types)
     }
@@ -208,7 +201,7 @@ impl<'a> Resolver<'a> {
             displaced: step.displaced,
             speed_data: self.speed(step, speed)?,
             zone_data: self.zone(step, zone)?,
-            time: self.option(step, "\\T", step.overrides.time.as_ref())?,
+            time: self.option(step, "\\T")?,
             settings: step.settings,
         }))
     }

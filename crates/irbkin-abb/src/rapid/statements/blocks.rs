@@ -27,6 +27,7 @@ pub(crate) fn is_flow(word: &str) -> bool {
 }
 
 /// The open blocks of a routine, and the loops of a module.
+#[derive(Default)]
 pub(crate) struct Blocks<'a> {
     /// Index into BLOCKS and, of a FOR, into the loops.
     open: Vec<(usize, Option<usize>)>,
@@ -35,10 +36,6 @@ pub(crate) struct Blocks<'a> {
 }
 
 impl<'a> Blocks<'a> {
-    pub(crate) fn new() -> Self {
-        Self { open: Vec::new(), loops: Vec::new() }
-    }
-
     /// The words that began the innermost block and that end it.
     pub(crate) fn innermost(&self) -> Option<(&'static str, &'static str)> {
         self.open.last().map(|(block, _)| BLOCKS[*block])

@@ -83,14 +83,19 @@ pub(crate) fn read_declaration<'a>(
     };
     let (line, column) = tokens.line_and_column(start);
     let mut names = Vec::new();
-    let sizes = ExpressionReader::collecting(tokens, &mut names).sizes()?;
+    let sizes = ExpressionReader::new(tokens).sizes()?;
+    for size in &sizes {
+        size.collect_names(&mut names);
+    }
     let size_names = names.len();
     let (value_place, mut value, mut direct) = (tokens.last_end, None, None);
     if tokens.peek().kind == TokenKind::Assign {
         tokens.take()?;
         direct = if sizes.is_empty() { read_direct(tokens, data_type) } else { None };
         if direct.is_none() {
-            value = Some(ExpressionReader::collecting(tokens, &mut names).expression()?);
+            let read = ExpressionReader::new(tokens).expression()?;
+            read.collect_names(&mut names);
+            value = Some(read);
         }
     }
     end_statement(tokens, faults, "a semicolon")?;

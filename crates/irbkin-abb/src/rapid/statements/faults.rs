@@ -12,6 +12,7 @@ const MOST_FAULTS: usize = 100;
 
 /// The faults of a text. Without tolerance the first one ends the reading.
 #[doc(hidden)]
+#[derive(Default)]
 pub struct Faults<'a> {
     pub(crate) is_tolerant: bool,
     /// Ends the reading, too.

@@ -9,9 +9,10 @@ use super::faults::end_statement;
 use super::moves::{WrittenMove, read_move};
 use super::reader::{Assignment, Named, StatementReader};
 use crate::rapid::data::fit::Fit;
-use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::instructions::{Effect, Shift};
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Content;
+use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::table::Entry;
@@ -65,7 +66,10 @@ impl<'a> StatementReader<'a> {
             self.skip_unfinished(token);
             return Ok(());
         };
-        let (at, displaced) = (self.at(), self.displaced_by.line(instruction.way));
+        let at = self.at();
+        // External axes do not concern the arm.
+        let is_pose = !matches!(instruction.way, MoveKind::MoveAbsJ | MoveKind::MoveExtJ);
+        let displaced = self.displaced_by.filter(|_| is_pose);
         let place = (!instruction.is_basic()).then(|| written_argument(instruction.name)).flatten();
         let written = place.and_then(|place| step.required.get(place - 1));
         if let Some(name) = written.and_then(Expression::name) {
@@ -189,7 +193,11 @@ impl<'a> StatementReader<'a> {
             None => NotRead::Instruction { name: self.tokens.text_of(first).to_string() },
         };
         let line = self.skip(first, what);
-        self.displaced_by.see(name.unwrap_or_default(), line);
+        match name.map(Effect::of) {
+            Some(Effect::Displaces(Shift::Off)) => self.displaced_by = None,
+            Some(Effect::Displaces(_)) => self.displaced_by = Some(line),
+            _ => {}
+        }
         if let Some(name) = assigned {
             let (at, components) = (self.at(), Vec::new());
             self.written.assignments.push(Assignment { at, name, components, line });

@@ -34,35 +34,9 @@ pub(crate) struct WrittenMove<'a> {
     pub(crate) required: Vec<Expression<'a>>,
     pub(crate) wobj: Option<Expression<'a>>,
     pub(crate) options: Vec<MoveOption>,
-    pub(crate) overrides: Overrides<'a>,
+    /// The names and the values of the options, to be evaluated.
+    pub(crate) values: Vec<(&'a str, Option<Expression<'a>>)>,
     pub(crate) settings: MotionSettings,
-}
-
-/// The value of an option that replaces a part of the speed or of the zone.
-pub(crate) enum Replacement<'a> {
-    /// It has no value.
-    Nothing,
-    Value(Expression<'a>),
-}
-
-/// The options that replace a part of the speed or of the zone.
-#[derive(Default)]
-pub(crate) struct Overrides<'a> {
-    /// `\V`.
-    pub(crate) velocity: Option<Replacement<'a>>,
-    /// `\T`.
-    pub(crate) time: Option<Replacement<'a>>,
-    /// `\Z`.
-    pub(crate) zone: Option<Replacement<'a>>,
-}
-
-impl<'a> Overrides<'a> {
-    /// The place of an option's value.
-    fn place(&mut self, name: &str) -> Option<&mut Option<Replacement<'a>>> {
-        let places = [("V", &mut self.velocity), ("T", &mut self.time), ("Z", &mut self.zone)];
-        let mut places = places.into_iter();
-        places.find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, place)| place)
-    }
 }
 
 /// Read the arguments of a move up to its semicolon; the instruction's name at byte `start` is
@@ -76,7 +50,7 @@ pub(crate) fn read_move<'a>(
     let (line, column) = tokens.line_and_column(start);
     let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) =
         (Vec::with_capacity(USUAL_ARGUMENTS), Vec::new(), None);
-    let mut overrides = Overrides::default();
+    let mut values = Vec::new();
     let mut fit = Fit::with(instruction.name, Some(instruction.arguments));
     loop {
         let next = tokens.peek();
@@ -103,9 +77,7 @@ pub(crate) fn read_move<'a>(
                 fit.optional(name, value.is_some());
                 let text = value.as_ref().map(|it| tokens.text[it.start..it.end].to_string());
                 options.push(MoveOption { after: required.len(), name: name.to_string(), text });
-                if let Some(place) = overrides.place(name) {
-                    place.get_or_insert(value.map_or(Replacement::Nothing, Replacement::Value));
-                }
+                values.push((name, value));
             }
         }
     }
@@ -139,7 +111,7 @@ pub(crate) fn read_move<'a>(
         required,
         wobj,
         options,
-        overrides,
+        values,
         settings: MotionSettings::default(),
     }))
 }

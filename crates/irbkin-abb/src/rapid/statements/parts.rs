@@ -44,17 +44,23 @@ pub(super) fn read_parts<'a>(
     (routine, scope, storage): (usize, Scope, Storage),
     name: &'a str,
 ) -> Result<Vec<DatumPart<'a>>, RapidFault> {
-    let mark = tokens.mark();
-    let (dimensions, value_place, value) = sizes_and_value(tokens, faults)?;
+    let sizes = ExpressionReader::new(tokens).sizes()?;
+    let (value_place, mut value) = (tokens.last_end, None);
+    if tokens.peek().kind == TokenKind::Assign {
+        tokens.take()?;
+        value = Some(ExpressionReader::new(tokens).expression()?);
+    }
+    end_statement(tokens, faults, "a semicolon")?;
     let end = tokens.last_end;
     let (line, column) = tokens.line_and_column(start);
     let mut leaves = Vec::new();
-    flatten((types, components), "", value, dimensions, 0, &mut leaves);
+    flatten((types, components), "", value, sizes.len(), 0, &mut leaves);
     let mut parts = Vec::with_capacity(leaves.len());
     for Leaf { path, data_type, value } in leaves {
-        tokens.rewind(mark);
         let mut names = Vec::new();
-        let sizes = ExpressionReader::collecting(tokens, &mut names).sizes()?;
+        for size in &sizes {
+            size.collect_names(&mut names);
+        }
         let size_names = names.len();
         if let Some(value) = &value {
             value.collect_names(&mut names);
@@ -73,27 +79,12 @@ pub(super) fn read_parts<'a>(
             column,
             written: None,
         };
+        let sizes = sizes.clone();
         let written = WrittenContent { data_type, sizes, value, value_place };
         let (declared, content) = known_at_once(tokens.text, declared, written, true)?;
         parts.push(DatumPart { path, declared, content });
     }
-    tokens.resume(end);
     Ok(parts)
-}
-
-/// The number of dimensions, the place for a value and the value, up to the semicolon.
-fn sizes_and_value<'a>(
-    tokens: &mut Tokens<'a>,
-    faults: &mut Faults<'_>,
-) -> Result<(usize, usize, Option<Expression<'a>>), RapidFault> {
-    let dimensions = ExpressionReader::new(tokens).sizes()?.len();
-    let (place, mut value) = (tokens.last_end, None);
-    if tokens.peek().kind == TokenKind::Assign {
-        tokens.take()?;
-        value = Some(ExpressionReader::new(tokens).expression()?);
-    }
-    end_statement(tokens, faults, "a semicolon")?;
-    Ok((dimensions, place, value))
 }
 
 /// Add the components of a record that are read, with the components of records in it.

@@ -11,9 +11,7 @@ use super::declarations::Declared;
 use super::faults::Faults;
 use super::moves::WrittenMove;
 use super::types::Types;
-use crate::rapid::data::instructions::{Effect, Shift};
 use crate::rapid::data::module::{Module, Routine};
-use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::own_types::OwnTypes;
 use crate::rapid::data::settings::{MotionSettings, Setting};
 use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
@@ -23,6 +21,7 @@ use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Called, Token, Tokens};
 
 /// A module as it is written, before names are looked up.
+#[derive(Default)]
 pub(crate) struct Written<'a> {
     pub(crate) text: &'a str,
     pub(crate) name: Option<&'a str>,
@@ -42,30 +41,6 @@ pub(crate) struct Written<'a> {
     pub(crate) scopes: Scopes,
     pub(crate) blocks: Blocks<'a>,
     pub(crate) calls: Vec<Called>,
-}
-
-impl<'a> Written<'a> {
-    /// An empty module.
-    pub(crate) fn new(text: &'a str, faults: Faults<'a>) -> Self {
-        Self {
-            text,
-            name: None,
-            attributes: Vec::new(),
-            routines: Vec::new(),
-            declared: Vec::new(),
-            contents: Vec::new(),
-            parts: BTreeMap::new(),
-            types: OwnTypes::new(),
-            moves: Vec::new(),
-            skipped: Vec::new(),
-            faults,
-            settings: Vec::new(),
-            assignments: Vec::new(),
-            scopes: Scopes::new(),
-            blocks: Blocks::new(),
-            calls: Vec::new(),
-        }
-    }
 }
 
 /// A statement that gives a datum another value.
@@ -98,7 +73,8 @@ pub(crate) struct StatementReader<'a> {
     pub(super) stage: Stage,
     /// Index of the routine, from 1; 0 outside routines.
     pub(super) routine: usize,
-    pub(super) displaced_by: DisplacedBy,
+    /// Line of the instruction that displaces the poses of the following moves in the routine.
+    pub(super) displaced_by: Option<usize>,
     /// The settings of the instructions of the routine.
     pub(super) settings: MotionSettings,
 }
@@ -106,10 +82,15 @@ pub(crate) struct StatementReader<'a> {
 impl<'a> StatementReader<'a> {
     /// At the beginning of a text.
     pub(super) fn new(written: Written<'a>, context: &'a [&'a Module]) -> Self {
-        let (tokens, displaced_by) = (Tokens::of(written.text), DisplacedBy::default());
-        let settings = MotionSettings::default();
-        let types = Types { own: OwnTypes::new(), context };
-        Self { tokens, types, written, stage: Stage::Beginning, routine: 0, displaced_by, settings }
+        Self {
+            tokens: Tokens::of(written.text),
+            types: Types { own: OwnTypes::new(), context },
+            written,
+            stage: Stage::Beginning,
+            routine: 0,
+            displaced_by: None,
+            settings: MotionSettings::default(),
+        }
     }
 
     /// The position, for looking up names.
@@ -134,15 +115,12 @@ impl<'a> StatementReader<'a> {
         name: &str,
         named: Named,
     ) -> Result<(), RapidFault> {
-        let routine =
-            self.routine.checked_sub(1).and_then(|index| self.written.routines.get(index));
-        let declared = self.written.scopes.declare(
-            self.routine,
-            routine.map(|routine| routine.name.as_str()),
-            name,
-            named,
-        );
-        declared.map_err(|kind| self.tokens.fault(at.start, kind))
+        if self.written.scopes.declare(self.routine, name, named) {
+            return Ok(());
+        }
+        let routine = self.current_routine().map(|routine| routine.name.clone());
+        let kind = RapidFaultKind::SameName { name: name.to_string(), routine };
+        Err(self.tokens.fault(at.start, kind))
     }
 
     /// List the text from a token to here as not read, or as unfinished if it contains a
@@ -193,38 +171,27 @@ pub(crate) struct Scopes {
     names: Vec<BTreeMap<String, Named>>,
 }
 
-impl Scopes {
-    pub(crate) fn new() -> Self {
+impl Default for Scopes {
+    fn default() -> Self {
         Self { names: Vec::from([BTreeMap::new()]) }
     }
+}
 
+impl Scopes {
     /// Begin the scope of the next routine.
     pub(crate) fn add_routine(&mut self) {
         self.names.push(BTreeMap::new());
     }
 
-    /// Declare a name, which must not exist yet; `routine_name` is for the message. A placeholder
-    /// declares nothing.
-    pub(crate) fn declare(
-        &mut self,
-        routine: usize,
-        routine_name: Option<&str>,
-        name: &str,
-        named: Named,
-    ) -> Result<(), RapidFaultKind> {
+    /// Declare a name; false if it exists already. A placeholder declares nothing.
+    pub(crate) fn declare(&mut self, routine: usize, name: &str, named: Named) -> bool {
         let Some(scope) = self.names.get_mut(routine).filter(|_| !is_placeholder(name)) else {
-            return Ok(());
+            return true;
         };
-        match scope.entry(name.to_lowercase()) {
-            Entry::Vacant(place) => {
-                place.insert(named);
-                Ok(())
-            }
-            Entry::Occupied(_) => Err(RapidFaultKind::SameName {
-                name: name.to_string(),
-                routine: routine_name.map(ToString::to_string),
-            }),
-        }
+        let place = scope.entry(name.to_lowercase());
+        let is_new = matches!(place, Entry::Vacant(_));
+        place.or_insert(named);
+        is_new
     }
 
     /// Find a name in lower case, in a routine or else in the module.
@@ -268,27 +235,5 @@ impl Scopes {
             Named::Datum(index) => Some((name, index)),
             Named::Other(_) => None,
         })
-    }
-}
-
-/// Line of the instruction that displaces the following moves to poses in a routine. `MoveAbsJ` is
-/// not displaced, and external axes do not concern the arm.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct DisplacedBy {
-    line: Option<usize>,
-}
-
-impl DisplacedBy {
-    pub(crate) fn line(self, kind: MoveKind) -> Option<usize> {
-        self.line.filter(|_| !matches!(kind, MoveKind::MoveAbsJ | MoveKind::MoveExtJ))
-    }
-
-    /// Record an instruction on a line.
-    pub(crate) fn see(&mut self, name: &str, line: usize) {
-        match Effect::of(name) {
-            Effect::Displaces(Shift::Off) => self.line = None,
-            Effect::Displaces(_) => self.line = Some(line),
-            _ => {}
-        }
     }
 }

@@ -25,7 +25,7 @@ impl<'a> StatementReader<'a> {
         context: &'a [&'a Module],
         faults: Faults<'a>,
     ) -> Result<Written<'a>, RapidFault> {
-        let mut written = Written::new(text, faults);
+        let mut written = Written { text, faults, ..Written::default() };
         if is_encoded(text) {
             let fault = RapidFault { line: 1, column: 1, kind: RapidFaultKind::Encoded };
             written.faults.add(fault)?;
@@ -184,12 +184,11 @@ impl<'a> StatementReader<'a> {
         first: Token,
         declaration: Declaration<'a>,
     ) -> Result<(), RapidFault> {
-        let (name, named) = match declaration {
+        match declaration {
             Declaration::Read(declared, content) => {
                 self.declare(first, declared.name, Named::Datum(self.written.declared.len()))?;
                 self.written.declared.push(declared);
                 self.written.contents.push(content);
-                return Ok(());
             }
             Declaration::Unread { name, type_name, parts } => {
                 let type_name = type_name.to_string();
@@ -198,14 +197,13 @@ impl<'a> StatementReader<'a> {
                 self.skip(first, what);
                 self.declare(first, name, Named::Other(Unresolved::OtherType { type_name }))?;
                 self.add_parts(name, parts);
-                return Ok(());
             }
             Declaration::Unfinished { name } => {
                 self.skip_unfinished(first);
-                (name, Named::Other(Unresolved::Unfinished))
+                self.declare(first, name, Named::Other(Unresolved::Unfinished))?;
             }
-        };
-        self.declare(first, name, named)
+        }
+        Ok(())
     }
 
     /// Declare the components of a datum.
@@ -213,7 +211,7 @@ impl<'a> StatementReader<'a> {
         for DatumPart { path, declared, content } in parts {
             let (name, index) = (format!("{name}.{path}"), self.written.declared.len());
             let named = Named::Datum(index);
-            if self.written.scopes.declare(self.routine, None, &name, named).is_ok() {
+            if self.written.scopes.declare(self.routine, &name, named) {
                 self.written.declared.push(declared);
                 self.written.contents.push(content);
                 self.written.parts.insert(index, name.to_lowercase());
