@@ -9,6 +9,7 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::names::predefined_names;
+use crate::rapid::text::words::words_of;
 
 /// The types of data that are looked for.
 const TYPES: [DataType; 4] =
@@ -70,6 +71,5 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
         is_string ^= character == '"';
         character == '!' && !is_string
     });
-    let is_part = |character: char| character.is_alphanumeric() || character == '_';
-    line[..comment.unwrap_or(line.len())].split(move |character| !is_part(character))
+    words_of(&line[..comment.unwrap_or(line.len())])
 }

@@ -165,7 +165,7 @@ pub(crate) fn routine_name(routines: &[Routine], index: usize) -> Option<String>
 }
 
 /// A module, or a text without one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Module {
     pub(crate) name: Option<String>,
     pub(crate) attributes: Vec<String>,

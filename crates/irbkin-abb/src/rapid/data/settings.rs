@@ -63,9 +63,6 @@ words! {
 }
 
 impl MotionSettings {
-    /// The names of the instructions that set them.
-    const INSTRUCTIONS: [&str; 4] = ["ConfL", "ConfJ", "SingArea", "CirPathMode"];
-
     /// Set what an instruction with a switch sets; without one it sets the default. Returns whether
     /// there is such an instruction and such a switch.
     pub(crate) fn set(&mut self, instruction: &str, switch: Option<&str>) -> bool {
@@ -77,14 +74,13 @@ impl MotionSettings {
             Some("off") => Some(false),
             Some(_) => None,
         };
-        let own = Self::INSTRUCTIONS.iter().position(|it| it.eq_ignore_ascii_case(instruction));
-        match own {
-            Some(0) => put(&mut self.conf_l, is_on),
-            Some(1) => put(&mut self.conf_j, is_on),
-            Some(2) => {
+        match instruction.to_ascii_lowercase().as_str() {
+            "confl" => put(&mut self.conf_l, is_on),
+            "confj" => put(&mut self.conf_j, is_on),
+            "singarea" => {
                 put(&mut self.sing_area, switch.map_or(Some(SingArea::default()), SingArea::named))
             }
-            Some(3) => put(
+            "cirpathmode" => put(
                 &mut self.cir_path_mode,
                 switch.map_or(Some(CirPathMode::default()), CirPathMode::named),
             ),

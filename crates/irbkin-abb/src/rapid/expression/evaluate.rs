@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::names::{At, Names};
-use super::tree::{Expression, Form, Unread, written};
+use super::tree::{Expression, Form, written};
 use crate::rapid::data::types::{Atom, Atoms, Record, Shape, Type};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
@@ -29,17 +29,6 @@ impl From<RapidFault> for Stop {
 impl From<Reason> for Stop {
     fn from(reason: Reason) -> Self {
         Self::Unknown(reason)
-    }
-}
-
-impl From<Unread> for Reason {
-    fn from(unread: Unread) -> Self {
-        match unread {
-            Unread::Unfinished => Self::Unfinished,
-            Unread::OptionalArgument => Self::OptionalArgument,
-            Unread::Operator => Self::Operator,
-            Unread::Negation => Self::Negation,
-        }
     }
 }
 
@@ -159,7 +148,7 @@ impl Evaluator<'_, '_> {
                 self.fill_operators(expression, place, atoms)
             }
             (Form::Star, _) => Err(Reason::Taught.into()),
-            (Form::Unread(unread), _) => Err(Reason::from(*unread).into()),
+            (Form::Unread(reason), _) => Err(Reason::clone(reason).into()),
         }
     }
 

@@ -31,12 +31,16 @@ pub(crate) trait Names {
         None
     }
 
-    /// Why some of these atoms of a datum may be different where the program moves.
-    fn cause_of(&self, at: At, name: &str, _atoms: Range<usize>) -> Option<Cause<'_>> {
-        match self.find(at, name) {
-            Lookup::Datum { cause, .. } => cause,
-            _ => None,
-        }
+    /// Why some of these atoms of a datum may be different where the program moves, if others are
+    /// for a cause.
+    fn cause_of<'c>(
+        &'c self,
+        _at: At,
+        _name: &str,
+        _atoms: Range<usize>,
+        cause: Cause<'c>,
+    ) -> Option<Cause<'c>> {
+        Some(cause)
     }
 
     /// The value of a function of the robot, which is known where a program is followed.

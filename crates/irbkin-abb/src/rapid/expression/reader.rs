@@ -4,10 +4,11 @@ use alloc::boxed::Box;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
-use super::tree::{Arguments, Call, Expression, Form, Operator, Reference, Unread};
+use super::tree::{Arguments, Call, Expression, Form, Operator, Reference};
 use super::whole::{DEEPEST_NESTING, WholeReader, note};
 use crate::rapid::data::fit::Fit;
 use crate::rapid::data::table::Entry;
+use crate::rapid::data::unread::Reason;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::skipping::not_closed;
 use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
@@ -42,7 +43,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             }
             return Err(self.tokens.lacking("an operator, a comma or the end of the expression"));
         }
-        Ok(self.made(start, Form::Unread(Unread::Operator)))
+        Ok(self.made(start, Form::Unread(Box::new(Reason::Operator))))
     }
 
     /// The sizes of an array in braces; empty without braces.
@@ -185,7 +186,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             TokenKind::Symbol(b'(') => return self.parenthesis(token),
             TokenKind::Placeholder => {
                 self.tokens.take()?;
-                Form::Unread(Unread::Unfinished)
+                Form::Unread(Box::new(Reason::Unfinished))
             }
             TokenKind::Name => self.name(token)?,
             _ => return Err(self.tokens.lacking("a value")),
@@ -212,7 +213,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         if name.eq_ignore_ascii_case("NOT") {
             WholeReader::new(self.tokens, self.depth).expression()?;
-            return Ok(Form::Unread(Unread::Negation));
+            return Ok(Form::Unread(Box::new(Reason::Negation)));
         }
         if is_reserved(name) || self.tokens.begins_statement(false) {
             return Err(self.tokens.lacking("a value"));
@@ -273,7 +274,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         let mark = self.tokens.peek();
         if self.tokens.take_if(b'?')? {
             self.expression()?;
-            let form = Form::Unread(Unread::OptionalArgument);
+            let form = Form::Unread(Box::new(Reason::OptionalArgument));
             return Ok((name, Some(self.made(mark.start, form))));
         }
         if self.tokens.peek().kind != TokenKind::Assign {

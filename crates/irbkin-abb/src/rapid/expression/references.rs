@@ -127,9 +127,9 @@ impl Evaluator<'_, '_> {
             Lookup::Datum { can_change: true, .. } if self.constant => {
                 return unknown(Unresolved::CanChange);
             }
-            Lookup::Datum { content, cause: Some(_), .. } if self.at_move => {
+            Lookup::Datum { content, cause: Some(cause), .. } if self.at_move => {
                 let atoms = self.used_atoms(expression, content, components)?;
-                if let Some(cause) = self.names.cause_of(self.at, name, atoms) {
+                if let Some(cause) = self.names.cause_of(self.at, name, atoms, cause) {
                     return unknown(cause.of(name));
                 }
                 content

@@ -4,6 +4,7 @@ use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::rapid::data::unread::Reason;
 use crate::rapid::text::place::excerpt;
 
 /// An expression and the bytes that it takes.
@@ -69,8 +70,8 @@ pub(crate) enum Form<'a> {
     Chain(Box<Expression<'a>>, Vec<(Operator, Expression<'a>)>),
     /// The teach pendant's `*`.
     Star,
-    /// Not evaluated, for this reason.
-    Unread(Unread),
+    /// Not evaluated, for this reason, whatever its names refer to.
+    Unread(Box<Reason>),
 }
 
 /// A name, perhaps with indices, perhaps with components.
@@ -95,15 +96,6 @@ pub(crate) struct Call<'a> {
 pub(crate) struct Arguments<'a> {
     pub(crate) required: Vec<Expression<'a>>,
     pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
-}
-
-/// The reason why an expression is not evaluated, whatever its names refer to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unread {
-    Unfinished,
-    OptionalArgument,
-    Operator,
-    Negation,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Whole modules and single records read from text, and modules made of data and moves.
 
 use alloc::borrow::Cow;
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -63,8 +63,11 @@ pub fn read_with(
 #[must_use]
 pub fn read(text: &str, context: &[&Module]) -> Module {
     // With tolerance no fault gets here.
-    read_with(text, context, Faults::new(true, Interrupt::none()))
-        .unwrap_or_else(|fault| Module { faults: Vec::from([fault]), ..Module::empty(text.len()) })
+    read_with(text, context, Faults::new(true, Interrupt::none())).unwrap_or_else(|fault| Module {
+        faults: Vec::from([fault]),
+        text_length: text.len(),
+        ..Module::default()
+    })
 }
 
 /// Decode the text of a file: UTF-16 with a byte order mark, UTF-8, otherwise Latin-1. The byte
@@ -138,27 +141,6 @@ fn is_of_another_type(kind: &RapidFaultKind) -> bool {
 }
 
 impl Module {
-    /// A module without content, of a text of this many bytes.
-    fn empty(text_length: usize) -> Self {
-        Self {
-            name: None,
-            attributes: Vec::new(),
-            routines: Vec::new(),
-            data: Vec::new(),
-            moves: Vec::new(),
-            skipped: Vec::new(),
-            faults: Vec::new(),
-            settings: Vec::new(),
-            index: BTreeMap::new(),
-            assigned: BTreeSet::new(),
-            expressions: BTreeMap::new(),
-            types: BTreeMap::new(),
-            parts: BTreeMap::new(),
-            calls: Vec::new(),
-            text_length,
-        }
-    }
-
     /// Build a module from data and moves, with a procedure without parameters for each routine
     /// that they name.
     ///
@@ -178,7 +160,7 @@ impl Module {
         check_names(name.as_deref(), &data, &moves)?;
         data.iter().try_for_each(check_numbers)?;
         let routines = routines(&data, &moves);
-        let module = Self { name, routines, data, moves, ..Self::empty(0) }.without_positions();
+        let module = Self { name, routines, data, moves, ..Self::default() }.without_positions();
         let read = parse(&module.to_string(), context)?;
         let texts =
             |module: &Module| module.moves.iter().map(ToString::to_string).collect::<Vec<_>>();

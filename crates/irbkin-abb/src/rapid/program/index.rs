@@ -1,6 +1,6 @@
 //! The names of a program: which routine and which datum a name refers to in each module.
 
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -20,14 +20,8 @@ pub(in crate::rapid) struct DatumId {
 /// The names of modules that know each other.
 pub(in crate::rapid) struct Index<'m> {
     pub(in crate::rapid) modules: Vec<&'m Module>,
-    /// The parameters of the routines of each module by their names in lower case.
-    parameters: Vec<BTreeMap<String, &'m [Parameter]>>,
-    /// The names in lower case of the procedures and the traps of each module.
-    procedures: Vec<BTreeSet<String>>,
-    traps: Vec<BTreeSet<String>>,
-    /// The types of what the functions of each module return, if they are read, by their names in
-    /// lower case.
-    functions: Vec<BTreeMap<String, DataType>>,
+    /// The routines of each module by their names in lower case.
+    routines: Vec<BTreeMap<String, &'m Routine>>,
     /// The first module that has a global procedure, by its name in lower case.
     global_procedures: BTreeMap<String, usize>,
     /// The first module that has a global datum, by its name in lower case.
@@ -44,10 +38,7 @@ impl<'m> Index<'m> {
     pub(super) fn new(modules: &[&'m Module]) -> Self {
         let mut names = Self {
             modules: modules.to_vec(),
-            parameters: Vec::with_capacity(modules.len()),
-            procedures: Vec::with_capacity(modules.len()),
-            functions: modules.iter().map(|module| functions(module)).collect(),
-            traps: Vec::with_capacity(modules.len()),
+            routines: Vec::with_capacity(modules.len()),
             global_procedures: BTreeMap::new(),
             global_data: BTreeMap::new(),
             locals: modules.iter().map(|module| locals(module)).collect(),
@@ -55,25 +46,15 @@ impl<'m> Index<'m> {
             bodies: modules.iter().map(|module| bodies(module)).collect(),
         };
         for (index, module) in modules.iter().enumerate() {
-            let (mut all, mut own) = (BTreeMap::new(), BTreeSet::new());
-            let mut traps = BTreeSet::new();
+            let mut own = BTreeMap::new();
             for routine in &module.routines {
                 let name = routine.name.to_lowercase();
-                all.entry(name.clone()).or_insert(&routine.parameters[..]);
-                if routine.kind == RoutineKind::Trap {
-                    traps.insert(name.clone());
-                }
-                if routine.kind != RoutineKind::Proc {
-                    continue;
-                }
-                if !routine.is_local() {
+                if routine.kind == RoutineKind::Proc && !routine.is_local() {
                     names.global_procedures.entry(name.clone()).or_insert(index);
                 }
-                own.insert(name);
+                own.entry(name).or_insert(routine);
             }
-            names.parameters.push(all);
-            names.procedures.push(own);
-            names.traps.push(traps);
+            names.routines.push(own);
             for (name, datum) in &module.index {
                 if module.data.get(*datum).is_some_and(|it| it.scope != Scope::Local) {
                     names.global_data.entry(name.clone()).or_insert(index);
@@ -83,31 +64,30 @@ impl<'m> Index<'m> {
         names
     }
 
+    /// A routine of a module, by its name in lower case.
+    fn routine(&self, module: usize, lower: &str) -> Option<&'m Routine> {
+        self.routines.get(module)?.get(lower).copied()
+    }
+
     /// The module of the procedure that a name in lower case refers to in a module.
     pub(super) fn procedure(&self, module: usize, lower: &str) -> Option<usize> {
-        if self.procedures.get(module)?.contains(lower) {
-            return Some(module);
-        }
-        self.global_procedures.get(lower).copied()
+        let own = self.routine(module, lower).filter(|it| it.kind == RoutineKind::Proc);
+        own.map(|_| module).or_else(|| self.global_procedures.get(lower).copied())
     }
 
     /// The module of the function that a name in lower case refers to in a module, and the type of
     /// what it returns.
     pub(super) fn function(&self, module: usize, lower: &str) -> Option<(usize, DataType)> {
-        let of = |home: usize| Some((home, *self.functions.get(home)?.get(lower)?));
-        of(module).or_else(|| {
-            let is_global = |home: &usize| {
-                let routines = self.modules[*home].routines.iter();
-                let mut own = routines.filter(|it| it.name.eq_ignore_ascii_case(lower));
-                own.any(|it| !it.is_local())
-            };
-            (0..self.modules.len()).filter(|home| of(*home).is_some()).find(is_global).and_then(of)
-        })
+        let of = |home: usize| {
+            let is_seen = |it: &&Routine| home == module || !it.is_local();
+            Some((home, returned(self.routine(home, lower).filter(is_seen)?)?))
+        };
+        of(module).or_else(|| (0..self.modules.len()).find_map(of))
     }
 
     /// Whether a routine is a trap, by its name in lower case.
     pub(super) fn is_trap(&self, module: usize, lower: &str) -> bool {
-        self.traps.get(module).is_some_and(|names| names.contains(lower))
+        self.routine(module, lower).is_some_and(|it| it.kind == RoutineKind::Trap)
     }
 
     /// The datum of a module that a name in lower case refers to in a module.
@@ -189,7 +169,7 @@ impl<'m> Index<'m> {
 
     /// The parameters of a routine, by its name in lower case.
     pub(super) fn parameters(&self, module: usize, lower: &str) -> &'m [Parameter] {
-        self.parameters.get(module).and_then(|it| it.get(lower)).copied().unwrap_or_default()
+        self.routine(module, lower).map_or(&[], |it| &it.parameters)
     }
 
     /// The routines of all modules in the order of the text, by module and name in lower case; ""
@@ -218,14 +198,11 @@ fn locals(module: &Module) -> BTreeMap<String, BTreeMap<String, usize>> {
     found
 }
 
-/// The types of what functions return, if they are read, by their names in lower case.
-fn functions(module: &Module) -> BTreeMap<String, DataType> {
-    let of = |routine: &Routine| {
-        let mut words = routine.header.split_whitespace();
-        words.find(|word| word.eq_ignore_ascii_case("FUNC"))?;
-        Some((routine.name.to_lowercase(), DataType::named(words.next()?)?))
-    };
-    module.routines.iter().filter_map(of).collect()
+/// The type of what a function returns, if it is read.
+fn returned(routine: &Routine) -> Option<DataType> {
+    let mut words = routine.header.split_whitespace();
+    words.find(|word| word.eq_ignore_ascii_case("FUNC"))?;
+    DataType::named(words.next()?)
 }
 
 /// The names in lower case of data that are not read, with the reasons.

@@ -151,16 +151,13 @@ impl State {
     }
 
     /// Forget the contents of some names of the routine.
-    pub(super) fn forget_locals(&mut self, is_forgotten: impl Fn(&String, &Local) -> bool) {
-        if self
-            .locals
-            .iter()
-            .any(|(name, local)| local.content.is_ok() && is_forgotten(name, local))
-        {
-            for (name, local) in Rc::make_mut(&mut self.locals) {
-                if local.content.is_ok() && is_forgotten(name, local) {
-                    local.content = Err(Unresolved::ValueNotKnown);
-                }
+    pub(super) fn forget_locals(&mut self, is_forgotten: impl Fn(&String) -> bool) {
+        let known = self.locals.iter().filter(|(_, local)| local.content.is_ok());
+        let lost: Vec<String> =
+            known.map(|(name, _)| name).filter(|it| is_forgotten(it)).cloned().collect();
+        for name in lost {
+            if let Some(local) = Rc::make_mut(&mut self.locals).get_mut(&name) {
+                local.content = Err(Unresolved::ValueNotKnown);
             }
         }
     }
@@ -244,11 +241,6 @@ impl State {
         }
         (all, depending.get())
     }
-}
-
-/// The words of a text.
-pub(super) fn words_of(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
 
 /// Of two settings the ones with which less is wrong.

@@ -11,6 +11,7 @@ use crate::rapid::data::moves::Move;
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::unread::{NotRead, Skipped};
 use crate::rapid::expression::tree::Expression;
+use crate::rapid::text::words::{ends_with, words_of};
 
 /// Statements in the order of the text.
 pub(super) type Block<'m> = Vec<Node<'m>>;
@@ -153,7 +154,7 @@ impl<'m> Grower<'m> {
     fn flow(&mut self, head: &'m Skipped, word: &str) {
         match word {
             "IF" | "FOR" | "WHILE" | "TEST" => {
-                let is_single = word == "IF" && !ends_with_then(&head.text);
+                let is_single = word == "IF" && !ends_with(&head.text, "THEN");
                 let (parts, part) = (Vec::new(), Vec::new());
                 let part_head = (word != "TEST").then_some(head);
                 self.open.push(Open { head, parts, part_head, part, is_single });
@@ -208,18 +209,10 @@ impl<'m> Grower<'m> {
     }
 }
 
-/// Whether the first line of an IF has a THEN.
-fn ends_with_then(text: &str) -> bool {
-    let start = text.len().saturating_sub("THEN".len());
-    text.get(start..).is_some_and(|end| end.eq_ignore_ascii_case("THEN"))
-}
-
 /// Whether a block has a word, in lower case.
 fn mentions(block: &Block<'_>, word: &str) -> bool {
-    let has = |text: &str| {
-        let words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        words.filter(|it| it.len() == word.len()).any(|it| it.to_lowercase() == word)
-    };
+    let is_it = |it: &str| it.len() == word.len() && it.to_lowercase() == word;
+    let has = |text: &str| words_of(text).any(is_it);
     block.iter().any(|node| match node {
         Node::Move(_, step) => {
             let arguments = [Some(&step.target.text), Some(&step.tool.text)];

@@ -9,7 +9,7 @@ use core::ops::Range;
 use super::cases::{Choices, Known, MOST_CASES, Questions, saved_value};
 use super::frame::Frame;
 use super::index::DatumId;
-use super::state::{Displacement, State, words_of};
+use super::state::{Displacement, State};
 use super::whole::Program;
 use crate::rapid::calc::wrong::not_solved;
 use crate::rapid::data::finding::{Code, Finding};
@@ -26,6 +26,7 @@ use crate::rapid::expression::tree::{Call, Expression, Form};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
+use crate::rapid::text::words::words_of;
 
 /// The calls that expressions make.
 pub(super) trait Calls {
@@ -93,8 +94,13 @@ impl Names for Scope<'_, '_> {
         }
     }
 
-    fn cause_of(&self, at: At, name: &str, atoms: Range<usize>) -> Option<Cause<'_>> {
-        let Lookup::Datum { cause: Some(cause), .. } = self.find(at, name) else { return None };
+    fn cause_of<'c>(
+        &'c self,
+        _: At,
+        name: &str,
+        atoms: Range<usize>,
+        cause: Cause<'c>,
+    ) -> Option<Cause<'c>> {
         let (id, datum) = self.program.datum(self.frame.module, &lower(name))?;
         let assigned = self.program.effects.assigned(id)?;
         let is_open = assigned.meets(datum.data_type, &atoms) && !self.is_saved(datum);
@@ -248,7 +254,7 @@ impl<'s> Scope<'s, '_> {
     pub(super) fn is_stale(&self, text: &str) -> bool {
         let effects = &self.program.effects;
         effects.has_references()
-            && text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|word| {
+            && words_of(text).any(|word| {
                 let datum = self.program.datum(self.frame.module, &lower(word));
                 datum.is_some_and(|(id, _)| effects.is_passed_and_assigned(id))
             })

@@ -29,6 +29,7 @@ use crate::rapid::data::unread::{Reason, Skipped};
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::names::lower;
 use crate::rapid::expression::tree::Expression;
+use crate::rapid::text::words::words_of;
 use irbkin::{Interrupt, Interrupted};
 
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
@@ -276,9 +277,8 @@ impl<'m> Walk<'_, 'm> {
     }
 
     fn set(&mut self, setting: &Setting) {
-        let mut words = setting.text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        let name = words.next().unwrap_or_default();
-        self.state.settings.set(name, words.find(|word| !word.is_empty()));
+        let mut words = words_of(&setting.text);
+        self.state.settings.set(words.next().unwrap_or_default(), words.next());
     }
 
     /// A move, with the values that it has here.

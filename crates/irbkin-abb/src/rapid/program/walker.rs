@@ -245,12 +245,12 @@ impl<'p, 'm> Walk<'p, 'm> {
         self.spend(size(block));
         if self.steps_left == 0 {
             self.state.forget_globals(None);
-            return self.state.forget_locals(|_, _| true);
+            return self.state.forget_locals(|_| true);
         }
         let place = (self.frame.module, self.frame.routine.as_str());
         let (globals, locals) = self.program.effects.of_block(self.program, place, block);
         self.state.forget_globals(globals.as_ref());
-        self.state.forget_locals(|name, _| locals.contains(name));
+        self.state.forget_locals(|name| locals.contains(name));
     }
 
     /// The names and values that are known here.

@@ -64,13 +64,16 @@ impl Names for Resolver<'_> {
         }
     }
 
-    fn cause_of(&self, at: At, name: &str, atoms: Range<usize>) -> Option<Cause<'_>> {
+    fn cause_of<'c>(
+        &'c self,
+        at: At,
+        name: &str,
+        atoms: Range<usize>,
+        cause: Cause<'c>,
+    ) -> Option<Cause<'c>> {
         match self.scopes.find(at.routine, &lower(name)) {
             Some(Named::Datum(index)) => self.causes.of_atoms(*index, &atoms),
-            _ => match self.find(at, name) {
-                Lookup::Datum { cause, .. } => cause,
-                _ => None,
-            },
+            _ => Some(cause),
         }
     }
 }
@@ -146,8 +149,11 @@ impl<'a> Resolver<'a> {
                     Some(Named::Datum(other)) => other,
                     Some(Named::Other(_)) => continue,
                     None => {
-                        if gone_through > declared.size_names {
-                            self.add_cause_elsewhere(current, &lower);
+                        // Data change with those of other modules.
+                        if gone_through > declared.size_names
+                            && let Some((_, Some(cause))) = self.elsewhere(&lower)
+                        {
+                            self.causes.add(current, ALL, cause);
                         }
                         continue;
                     }
@@ -174,13 +180,6 @@ impl<'a> Resolver<'a> {
     fn add_cause(&mut self, datum: usize, gone_through: usize, other: usize) {
         let of_other = self.causes.of_used_atoms(other, self.declared);
         if let Some(cause) = of_other.filter(|_| gone_through > self.declared[datum].size_names) {
-            self.causes.add(datum, ALL, cause);
-        }
-    }
-
-    /// Record that a datum changes with one of another module, if that changes.
-    fn add_cause_elsewhere(&mut self, datum: usize, lower: &str) {
-        if let Some((_, Some(cause))) = self.elsewhere(lower) {
             self.causes.add(datum, ALL, cause);
         }
     }
@@ -220,6 +219,7 @@ enum State {
 }
 
 /// The assigned data, with causes.
+#[derive(Default)]
 pub(crate) struct Causes<'a> {
     /// By the index of the datum, for ranges of its atoms.
     of_data: BTreeMap<usize, Vec<(Range<usize>, Cause<'a>)>>,
@@ -228,10 +228,6 @@ pub(crate) struct Causes<'a> {
 }
 
 impl<'a> Causes<'a> {
-    pub(crate) fn none() -> Self {
-        Self { of_data: BTreeMap::new(), of_others: BTreeMap::new() }
-    }
-
     /// The causes from assignments: each applies to the datum that its name refers to at its place.
     /// A CONST cannot be assigned.
     pub(crate) fn new(
@@ -240,7 +236,7 @@ impl<'a> Causes<'a> {
         scopes: &Scopes,
         blocks: &Blocks<'_>,
     ) -> Self {
-        let mut causes = Self::none();
+        let mut causes = Self::default();
         for Assignment { at, name, components, line } in assignments {
             let lower = lower(name);
             if blocks.is_variable(at.inside_loop, &lower) {

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use super::declarations::read_name;
 use super::reader::{Named, StatementReader};
+use super::recovery::begins_other;
 use crate::rapid::data::module::Scope;
 use crate::rapid::data::own_types::{Definition, OwnType};
 use crate::rapid::data::unread::{NotRead, Unresolved};
@@ -27,11 +28,9 @@ impl StatementReader<'_> {
 
     /// The types and the names of a record's components, up to its end; `None` if it has others.
     fn components(&mut self, name: &str) -> Result<Option<Vec<(String, String)>>, RapidFault> {
-        let others = ["MODULE", "ENDMODULE", "PROC", "FUNC", "TRAP", "RECORD"];
         let (mut components, mut words, mut is_plain) = (Vec::new(), Vec::new(), true);
         while !self.tokens.take_word("ENDRECORD")? {
-            let is_last = self.tokens.peek().kind == TokenKind::End;
-            if is_last || others.iter().any(|other| self.tokens.at_word(other)) {
+            if begins_other(&self.tokens) {
                 return Err(self.not_ended(format!("RECORD {name}"), "ENDRECORD"));
             }
             let token = self.tokens.take()?;

@@ -8,7 +8,7 @@ use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::excerpt;
 use crate::rapid::text::skipping::{at_line, end_of_line, is_conflict_marker, next_statement};
 use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
-use crate::rapid::text::words::Capitals;
+use crate::rapid::text::words::ends_with;
 
 impl StatementReader<'_> {
     /// Keep a fault, to go on as if it were none.
@@ -30,9 +30,8 @@ impl StatementReader<'_> {
         let resumed = at_line.unwrap_or_else(|| next_statement(text, from));
         let end = first.start + text[first.start..resumed].trim_end().len();
         self.tokens.resume(end);
-        let word = Capitals::of(self.tokens.text_of(first));
         let what = if self.opens(first, end) {
-            NotRead::Flow { word: word.as_str().to_string() }
+            NotRead::Flow { word: self.tokens.text_of(first).to_ascii_uppercase() }
         } else {
             let statement = excerpt(self.tokens.text_of(first));
             NotRead::Invalid { statement, fault: words }
@@ -47,14 +46,10 @@ impl StatementReader<'_> {
     /// Open the block that an invalid statement begins, if it does.
     fn opens(&mut self, first: Token, end: usize) -> bool {
         let (word, text) = (self.tokens.text_of(first), &self.tokens.text[first.start..end]);
-        let ends_with = |end: &str| {
-            let start = text.len().saturating_sub(end.len());
-            text.get(start..).is_some_and(|it| it.eq_ignore_ascii_case(end))
-        };
         let is = |other: &str| word.eq_ignore_ascii_case(other);
-        let begins = is("IF") && ends_with("THEN")
-            || (is("FOR") || is("WHILE")) && ends_with("DO")
-            || is("TEST") && !ends_with(";");
+        let begins = is("IF") && ends_with(text, "THEN")
+            || (is("FOR") || is("WHILE")) && ends_with(text, "DO")
+            || is("TEST") && !text.ends_with(';');
         begins && self.written.blocks.open(word)
     }
 
@@ -96,13 +91,17 @@ impl StatementReader<'_> {
 /// Skip to a word that ends something without a name, or to where something else begins; false if
 /// it is not there.
 pub(super) fn skip_to_end(tokens: &mut Tokens<'_>, end: &str) -> Result<bool, RapidFault> {
-    let others = ["MODULE", "ENDMODULE", "PROC", "FUNC", "TRAP", "RECORD"];
     while !tokens.take_word(end)? {
-        let is_last = tokens.peek().kind == TokenKind::End;
-        if is_last || others.iter().any(|other| tokens.at_word(other)) {
+        if begins_other(tokens) {
             return Ok(false);
         }
         tokens.take()?;
     }
     Ok(true)
+}
+
+/// Whether the text ends or something begins that is in no routine and in no record.
+pub(super) fn begins_other(tokens: &Tokens<'_>) -> bool {
+    let others = ["MODULE", "ENDMODULE", "PROC", "FUNC", "TRAP", "RECORD"];
+    tokens.peek().kind == TokenKind::End || others.iter().any(|other| tokens.at_word(other))
 }

@@ -103,8 +103,7 @@ pub(crate) fn end_of_line(text: &str, byte: usize) -> usize {
 /// The next token, if it begins a line and may begin a statement.
 pub(crate) fn at_line(tokens: &Tokens<'_>) -> Option<usize> {
     let next = tokens.peek();
-    let between = tokens.text.get(tokens.last_end..next.start).unwrap_or_default();
-    (next.kind == TokenKind::Name && between.contains(['\n', '\r'])).then_some(next.start)
+    (next.kind == TokenKind::Name && tokens.is_first_of_line()).then_some(next.start)
 }
 
 /// Where a statement may begin from a byte on: behind a semicolon, or at the next line that begins

@@ -19,6 +19,17 @@ pub(crate) fn end_of_word(text: &str, start: usize) -> usize {
     end + text[end..].chars().take_while(belongs).map(char::len_utf8).sum::<usize>()
 }
 
+/// The words of a text.
+pub(crate) fn words_of(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
+}
+
+/// Whether a text ends with a word, in any case.
+pub(crate) fn ends_with(text: &str, word: &str) -> bool {
+    let start = text.len().saturating_sub(word.len());
+    text.get(start..).is_some_and(|end| end.eq_ignore_ascii_case(word))
+}
+
 /// Whether RAPID could read it as a declared name.
 pub(crate) fn is_name(text: &str) -> bool {
     end_of_word(text, 0) == text.len() && is_name_token(text)
