@@ -141,7 +141,7 @@ pub fn check<const N: usize>(
         carrying,
         carried,
         interrupt: options.interrupt,
-        finder: Finder::new(&program, &sources),
+        finder: Finder { program: &program, sources: &sources },
         ends: Vec::new(),
         found: Vec::new(),
         seen: Seen::new(),

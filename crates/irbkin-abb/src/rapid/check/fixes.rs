@@ -27,39 +27,27 @@ pub(super) struct Demand {
     pub(super) finding: Option<usize>,
 }
 
-struct Correction<'d> {
-    written: &'d Written,
-    from: Configuration,
-    to: Configuration,
-    findings: Vec<usize>,
-}
-
 /// Give findings their corrections: none where another move needs the confdata as it is, or
 /// needs another one.
 pub(super) fn correct(demands: &[Demand], found: &mut [Finding]) {
-    let mut corrections: BTreeMap<(usize, usize), Correction<'_>> = BTreeMap::new();
-    let mut contradicted = BTreeSet::new();
+    let mut corrections: BTreeMap<_, Vec<(usize, &Demand, &Written)>> = BTreeMap::new();
+    let mut right = BTreeSet::new();
     for demand in demands {
-        let (Some(finding), Some(written)) = (demand.finding, &demand.written) else { continue };
-        let (begin, from, to) = (written.begin(), demand.from, demand.to);
-        let made = || Correction { written, from, to, findings: Vec::new() };
-        let correction = corrections.entry(begin).or_insert_with(made);
-        if correction.to != to {
-            contradicted.insert(begin);
+        let Some(written) = &demand.written else { continue };
+        let begin = written.begin();
+        if let Some(finding) = demand.finding {
+            corrections.entry(begin).or_default().push((finding, demand, written));
+        } else {
+            right.insert(begin);
         }
-        correction.findings.push(finding);
     }
-    if corrections.is_empty() {
-        return;
-    }
-    let right = demands.iter().filter(|demand| demand.finding.is_none());
-    contradicted.extend(right.filter_map(|demand| demand.written.as_ref()).map(Written::begin));
-    for (begin, correction) in corrections {
-        if contradicted.contains(&begin) {
+    for (begin, all) in corrections {
+        let (_, Demand { from, to, .. }, written) = all[0];
+        if right.contains(&begin) || all.iter().any(|(_, other, _)| other.to != *to) {
             continue;
         }
-        let edits = correction.written.edits(correction.from, correction.to);
-        for index in correction.findings {
+        let edits = written.edits(*from, *to);
+        for (index, ..) in all {
             if let Some(finding) = found.get_mut(index) {
                 finding.edits.clone_from(&edits);
             }
@@ -105,18 +93,14 @@ impl Written {
 
 /// A finder of confdata in the texts of a program.
 pub(super) struct Finder<'a, 'm> {
-    program: &'a Program<'m>,
-    sources: &'a [&'a str],
+    pub(super) program: &'a Program<'m>,
+    pub(super) sources: &'a [&'a str],
 }
 
 /// A place from which names are looked up: a module and a routine of it.
 type At<'a> = (usize, Option<&'a str>);
 
-impl<'a, 'm> Finder<'a, 'm> {
-    pub(super) fn new(program: &'a Program<'m>, sources: &'a [&'a str]) -> Self {
-        Self { program, sources }
-    }
-
+impl Finder<'_, '_> {
     /// The confdata of the target of a move in a module; `None` if it is calculated.
     pub(super) fn of(&self, module: usize, step: &Move) -> Option<Written> {
         self.within(step.target.span.clone(), (module, step.routine.as_deref()), MOST_NAMES)

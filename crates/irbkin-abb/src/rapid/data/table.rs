@@ -1,7 +1,6 @@
 //! RAPID's own instructions and functions: their arguments, and what they do to motion.
 
 use alloc::format;
-use core::cmp::Ordering;
 
 use super::instructions::Effect::{
     self, Displaces, Jumps, Leaves, Moves, Nothing, Offsets, Returns, Sets, Stops, Waits,
@@ -589,8 +588,7 @@ const OTHER_FUNCTIONS: &str = "CalcRotAxFrameZ CalcRotAxisFrame CapGetFailSigs D
 impl Entry {
     fn of(name: &str) -> Option<&'static Self> {
         let lower = |byte: u8| byte.to_ascii_lowercase();
-        let order =
-            |it: &Self| -> Ordering { it.name.bytes().map(lower).cmp(name.bytes().map(lower)) };
+        let order = |it: &Self| it.name.bytes().map(lower).cmp(name.bytes().map(lower));
         TABLE.binary_search_by(order).ok().map(|at| &TABLE[at])
     }
 

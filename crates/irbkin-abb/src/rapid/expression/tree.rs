@@ -16,11 +16,11 @@ pub(crate) struct Expression<'a> {
 }
 
 impl<'a> Expression<'a> {
-    /// The name that a reference begins with.
-    pub(crate) fn name(&self) -> Option<&'a str> {
+    /// The name, the indices and the components of a reference.
+    pub(crate) fn reference(&self) -> Option<(&'a str, &[Self], &[&'a str])> {
         match &self.form {
-            Form::Name(name) => Some(name),
-            Form::Reference(reference) => Some(reference.name),
+            Form::Name(name) => Some((name, &[], &[])),
+            Form::Reference(it) => Some((it.name, &it.indices, &it.components)),
             _ => None,
         }
     }

@@ -173,11 +173,12 @@ impl Module {
             || "datum or move for each that was given".to_string(),
             |it| it.what.to_string(),
         );
-        Err(fault(RapidFaultKind::NoSuchValue { missing: Missing::Module { what } }))
+        Err(nowhere(RapidFaultKind::NoSuchValue { missing: Missing::Module { what } }))
     }
 }
 
-fn fault(kind: RapidFaultKind) -> Error {
+/// An error of data that are not in a text.
+pub(super) fn nowhere(kind: RapidFaultKind) -> Error {
     RapidFault::nowhere(kind).into()
 }
 
@@ -186,7 +187,7 @@ fn check_names(module: Option<&str>, data: &[Datum], moves: &[Move]) -> Result<(
         data.iter().flat_map(|datum| [Some(datum.name.as_str()), datum.routine.as_deref()]);
     let of_moves = moves.iter().map(|step| step.routine.as_deref());
     match of_data.chain(of_moves).chain([module]).flatten().find(|name| !is_name(name)) {
-        Some(name) => Err(fault(RapidFaultKind::NotAName { name: name.to_string() })),
+        Some(name) => Err(nowhere(RapidFaultKind::NotAName { name: name.to_string() })),
         None => Ok(()),
     }
 }
@@ -204,7 +205,7 @@ fn check_numbers(datum: &Datum) -> Result<(), Error> {
                 .try_fold(1_usize, |product, size| product.checked_mul(*size))
                 .unwrap_or(usize::MAX);
             if sizes.is_empty() || wanted != values.len() {
-                return Err(fault(RapidFaultKind::ArraySize {
+                return Err(nowhere(RapidFaultKind::ArraySize {
                     thing: thing(),
                     dimension: 1,
                     found: values.len(),
@@ -217,7 +218,7 @@ fn check_numbers(datum: &Datum) -> Result<(), Error> {
     for value in values {
         if value.data_type() != datum.data_type {
             let (found, wanted) = (value.type_name().to_string(), datum.data_type.name());
-            return Err(fault(RapidFaultKind::ComponentType {
+            return Err(nowhere(RapidFaultKind::ComponentType {
                 thing: thing(),
                 part: String::new(),
                 found,
@@ -225,7 +226,9 @@ fn check_numbers(datum: &Datum) -> Result<(), Error> {
             }));
         }
         if !are_finite(&value.atoms()) {
-            return Err(fault(RapidFaultKind::NotFinite { text: format!("{} {value}", thing()) }));
+            return Err(nowhere(RapidFaultKind::NotFinite {
+                text: format!("{} {value}", thing()),
+            }));
         }
     }
     Ok(())

@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 use core::fmt::{self, Write as _};
 use core::ops::Range;
 
+use super::read::nowhere;
 use crate::Error;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
 use crate::rapid::data::moves::Move;
@@ -279,10 +280,6 @@ pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result
     }
     text.push_str(source.get(copied..).ok_or_else(other_text)?);
     Ok(text)
-}
-
-fn nowhere(kind: RapidFaultKind) -> Error {
-    RapidFault::nowhere(kind).into()
 }
 
 /// The bytes that a new value replaces.

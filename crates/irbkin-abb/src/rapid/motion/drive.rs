@@ -103,20 +103,17 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         findings: &'a mut Vec<Finding>,
         interrupt: Interrupt<'a>,
     ) -> Result<(Samples<N>, Vec<Made<N>>), Error> {
-        let (samples, made) = (Samples::default(), Vec::with_capacity(goals.len()));
-        let (here, entry, is_lost) = (None, None, false);
-        let spacing = Spacing::step(options.step, options.turn)?;
         let mut drive = Self {
             robot,
             flange,
             goals,
-            spacing,
+            spacing: Spacing::step(options.step, options.turn)?,
             findings,
-            samples,
-            made,
-            here,
-            entry,
-            is_lost,
+            samples: Samples::default(),
+            made: Vec::with_capacity(goals.len()),
+            here: None,
+            entry: None,
+            is_lost: false,
             other: None,
             interrupt,
         };

@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
+use super::joints::Conf;
 use crate::Error;
 use crate::rapid::calc::confdata::{is_old_form, of_old_form};
 use crate::rapid::calc::frames::Frames;
@@ -51,7 +52,7 @@ pub(in crate::rapid) struct Goal<'m, const N: usize> {
     pub(in crate::rapid) from_unknown: bool,
 }
 
-impl<const N: usize> Goal<'_, N> {
+impl<'m, const N: usize> Goal<'m, N> {
     /// Whether the tool goes on a line or an arc.
     pub(in crate::rapid) fn is_cartesian(&self) -> bool {
         matches!(self.step.kind, MoveKind::MoveL | MoveKind::MoveC)
@@ -64,9 +65,14 @@ impl<const N: usize> Goal<'_, N> {
             _ => None,
         }
     }
-}
 
-impl<'m, const N: usize> Goal<'m, N> {
+    /// How its target is met by a joint move.
+    pub(in crate::rapid) fn conf(&self) -> Conf {
+        let settings = self.step.settings;
+        let on = if self.is_cartesian() { settings.conf_l } else { settings.conf_j };
+        if on { Conf::On } else { Conf::Off }
+    }
+
     /// A move; report what is wrong with it.
     pub(in crate::rapid) fn new(
         robot: &Robot<N>,

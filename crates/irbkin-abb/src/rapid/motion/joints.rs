@@ -80,22 +80,6 @@ pub(in crate::rapid) fn way(from: &Pose, to: &Pose) -> Way {
     [length, 2.0 * half_sin.min(1.0).asin()]
 }
 
-/// The joint (from 1) that takes longest between two samples at its limit, and how long [s].
-pub(in crate::rapid) fn slowest<const N: usize>(
-    from: &[f64; N],
-    to: &[f64; N],
-    max_velocity: &[f64; N],
-) -> (usize, f64) {
-    let time = |joint: usize| (to[joint] - from[joint]).abs() / max_velocity[joint];
-    let (mut slowest, mut longest) = (0, time(0));
-    for joint in 1..N {
-        if time(joint) > longest {
-            (slowest, longest) = (joint, time(joint));
-        }
-    }
-    (slowest + 1, longest)
-}
-
 /// Whether a target must be met with its own configuration.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(in crate::rapid) enum Conf {
@@ -132,7 +116,12 @@ pub(super) fn solved<const N: usize>(
                 error @ Error::Robot(RobotError::NoConfiguration(_) | RobotError::InvalidJoints(_)),
             ) => {
                 beside = nearest_written(flange, &pose, &wanted);
-                if let Some((q, finding)) = beside.and_then(|it| nearly(flange, it, &wanted)) {
+                // Running cells keep targets whose tool or work object was measured again.
+                if let Some((q, over)) = beside
+                    && over.by <= NEAR_CONFDATA
+                    && let Ok(found) = flange.configuration(&q)
+                {
+                    let finding = near(&over, wanted.configuration, found);
                     return (Some(q), Some(finding).filter(|_| conf == Conf::On));
                 }
                 missed = Some(error).filter(|_| conf == Conf::On);
@@ -179,17 +168,6 @@ pub(in crate::rapid) fn nearest_written<const N: usize>(
     over.min_by(|a, b| a.1.by.total_cmp(&b.1.by))
 }
 
-/// Joints that are nearest to a configuration, if they are near: running cells keep targets whose
-/// tool or work object was measured again.
-fn nearly<const N: usize>(
-    flange: &Robot<N>,
-    (q, over): ([f64; N], Over),
-    request: &ConfigurationRequest<N>,
-) -> Option<([f64; N], Finding)> {
-    let found = flange.configuration(&q).ok()?;
-    (over.by <= NEAR_CONFDATA).then(|| (q, near(&over, request.configuration, found)))
-}
-
 /// The straight line in joint space between joints [rad]; `spacing` bounds the steps of a joint as
 /// it does turns of the tool.
 pub(super) fn joint_line<const N: usize>(
@@ -214,15 +192,6 @@ pub(super) fn joint_line<const N: usize>(
 /// Joints between two others.
 pub(super) fn mixed<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
     core::array::from_fn(|joint| from[joint] + (to[joint] - from[joint]) * part)
-}
-
-impl<const N: usize> Goal<'_, N> {
-    /// How its target is met by a joint move.
-    pub(in crate::rapid) fn conf(&self) -> Conf {
-        let settings = self.step.settings;
-        let on = if self.is_cartesian() { settings.conf_l } else { settings.conf_j };
-        if on { Conf::On } else { Conf::Off }
-    }
 }
 
 /// Samples of each half of a corner.

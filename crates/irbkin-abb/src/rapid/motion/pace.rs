@@ -6,7 +6,7 @@ use alloc::{format, vec};
 
 use super::drive::Made;
 use super::goal::Goal;
-use super::joints::{Samples, slowest};
+use super::joints::Samples;
 use crate::Error;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::motion::thresholds::JOINED_MOVES;
@@ -67,10 +67,18 @@ impl<const N: usize> Pace<'_, '_, N> {
         least
     }
 
-    /// The joint that is slowest from the sample before one, and how long it takes [s].
+    /// The joint (from 1) that takes longest at its limit from the sample before one, and how long
+    /// [s].
     fn slowest(&self, sample: usize) -> (usize, f64) {
-        let q = &self.samples.q;
-        slowest(&q[sample - 1], &q[sample], self.max_velocity)
+        let (from, to) = (&self.samples.q[sample - 1], &self.samples.q[sample]);
+        let time = |joint: usize| (to[joint] - from[joint]).abs() / self.max_velocity[joint];
+        let (mut slowest, mut longest) = (0, time(0));
+        for joint in 1..N {
+            if time(joint) > longest {
+                (slowest, longest) = (joint, time(joint));
+            }
+        }
+        (slowest + 1, longest)
     }
 
     /// The times of the intervals of a move [s], the first one at index 0 for sample 1.

@@ -56,14 +56,8 @@ pub(in crate::rapid) fn called(statement: &str) -> Option<String> {
 
 /// The name in lower case that an expression refers to, with its components, joined by dots.
 pub(super) fn referred(expression: &Expression<'_>) -> Option<(String, String)> {
-    use crate::rapid::expression::tree::Form;
-    match &expression.form {
-        Form::Name(name) => Some((name.to_lowercase(), String::new())),
-        Form::Reference(it) => {
-            Some((it.name.to_lowercase(), it.components.join(".").to_lowercase()))
-        }
-        _ => None,
-    }
+    let (name, _, components) = expression.reference()?;
+    Some((name.to_lowercase(), components.join(".").to_lowercase()))
 }
 
 #[cfg(test)]

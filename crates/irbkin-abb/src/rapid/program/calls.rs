@@ -223,7 +223,7 @@ impl<'m> Walk<'_, 'm> {
             return;
         }
         if let Some((datum, _)) = self.program.datum(self.frame.module, lower) {
-            let is_certain = !self.program.effects.is_interrupted(datum);
+            let is_certain = !self.program.effects.interrupted.contains(&datum);
             self.state.set_global(datum, content.filter(|_| is_certain));
         }
     }

@@ -10,7 +10,7 @@ use core::ops::Range;
 use super::arguments::referred;
 use super::index::{DatumId, Index};
 use super::statement::{Action, Instruction};
-use super::tree::{Block, Body, Node};
+use super::tree::{Block, Node};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Parameter;
@@ -89,11 +89,11 @@ pub(super) struct Effects {
     of_routines: BTreeMap<Name, Acts>,
     /// The calls of each routine.
     calls: BTreeMap<Name, Vec<Call>>,
-    assigned: BTreeMap<DatumId, Assigned>,
+    pub(super) assigned: BTreeMap<DatumId, Assigned>,
     /// The data that a routine assigns to which they are passed.
-    by_reference: BTreeSet<DatumId>,
+    pub(super) by_reference: BTreeSet<DatumId>,
     /// The data that traps and handlers assign: at a time that is not known.
-    interrupted: BTreeSet<DatumId>,
+    pub(super) interrupted: BTreeSet<DatumId>,
     /// The routines that were gone through for the data that others assign.
     pub(super) gone_through: Cell<usize>,
 }
@@ -106,7 +106,9 @@ impl Effects {
             for (routine, body) in bodies {
                 let name = (module, routine.clone());
                 let mut reader = Reader::new(names, (module, routine), &mut effects.assigned);
-                reader.body(body);
+                core::iter::once(&body.main)
+                    .chain(&body.handlers)
+                    .for_each(|block| reader.block(block));
                 let Reader { acts, calls: own, .. } = reader;
                 effects.of_routines.insert(name.clone(), acts);
                 calls.insert(name, own);
@@ -135,29 +137,9 @@ impl Effects {
         found
     }
 
-    /// Whether a trap or a handler may assign a datum at any time.
-    pub(super) fn is_interrupted(&self, datum: DatumId) -> bool {
-        self.interrupted.contains(&datum)
-    }
-
     /// The effects of a routine.
     pub(super) fn of_routine(&self, module: usize, lower: &str) -> Option<&Acts> {
         self.of_routines.get(&(module, String::from(lower)))
-    }
-
-    /// The assignments of a datum; `None` if it is not assigned.
-    pub(super) fn assigned(&self, datum: DatumId) -> Option<&Assigned> {
-        self.assigned.get(&datum)
-    }
-
-    /// Whether a routine assigns the datum to which it is passed.
-    pub(super) fn is_passed_and_assigned(&self, datum: DatumId) -> bool {
-        self.by_reference.contains(&datum)
-    }
-
-    /// Whether there are data that a routine assigns to which they are passed.
-    pub(super) fn has_references(&self) -> bool {
-        !self.by_reference.is_empty()
     }
 
     /// The data, perhaps any, and the names of locals that a block of a routine assigns.
@@ -329,11 +311,6 @@ impl<'e, 'm> Reader<'e, 'm> {
         let parameters = names.parameters(module, routine);
         let (acts, calls, locals) = (Acts::default(), Vec::new(), BTreeSet::new());
         Self { names, module, routine, parameters, acts, calls, locals, assigned }
-    }
-
-    fn body(&mut self, body: &Body<'_>) {
-        self.block(&body.main);
-        body.handlers.iter().for_each(|handler| self.block(handler));
     }
 
     fn block(&mut self, block: &Block<'_>) {

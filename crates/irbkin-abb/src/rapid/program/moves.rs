@@ -31,7 +31,7 @@ impl Scope<'_, '_> {
             && own.speed_data.is_ok()
             && own.zone_data.is_ok()
             && own.time.as_ref().is_none_or(Result::is_ok);
-        if is_known && !self.program.effects.has_references() {
+        if is_known && self.program.effects.by_reference.is_empty() {
             return false;
         }
         let step = own.to_mut();

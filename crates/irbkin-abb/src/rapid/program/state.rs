@@ -85,7 +85,7 @@ pub(super) struct State {
     /// What displacement and offsets rest on that the program does not determine, in words.
     pub(super) assumed_shift: Option<Rc<str>>,
     /// Assigned data of which something is known here; all others are unknown.
-    globals: Rc<BTreeMap<DatumId, Known>>,
+    pub(super) globals: Rc<BTreeMap<DatumId, Known>>,
     pub(super) locals: Rc<Locals>,
     pub(super) asked: Questions,
 }
@@ -117,11 +117,6 @@ impl State {
             if Rc::ptr_eq(&self.globals, &other.globals) { 0 } else { self.globals.len() };
         let locals = if Rc::ptr_eq(&self.locals, &other.locals) { 0 } else { self.locals.len() };
         globals + locals
-    }
-
-    /// What is known of an assigned datum.
-    pub(super) fn global(&self, datum: DatumId) -> Option<&Known> {
-        self.globals.get(&datum)
     }
 
     /// Give a datum another content, or none that is known.

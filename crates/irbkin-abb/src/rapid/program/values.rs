@@ -84,7 +84,7 @@ impl Names for Scope<'_, '_> {
             }
             return predefined(&lower).map_or(Lookup::NotHere, Lookup::Predefined);
         };
-        if let Some(several) = self.state.global(id) {
+        if let Some(several) = self.state.globals.get(&id) {
             return chosen(several);
         }
         match self.cause(id, datum) {
@@ -102,7 +102,7 @@ impl Names for Scope<'_, '_> {
         cause: Cause<'c>,
     ) -> Option<Cause<'c>> {
         let (id, datum) = self.program.datum(self.frame.module, &lower(name))?;
-        let assigned = self.program.effects.assigned(id)?;
+        let assigned = self.program.effects.assigned.get(&id)?;
         let is_open = assigned.meets(datum.data_type, &atoms) && !self.is_saved(datum);
         is_open.then_some(cause)
     }
@@ -194,7 +194,7 @@ impl<'s> Scope<'s, '_> {
         if datum.storage == Storage::Const {
             return Ok(None);
         }
-        if let Some(assigned) = self.program.effects.assigned(id) {
+        if let Some(assigned) = self.program.effects.assigned.get(&id) {
             let (module, line) = assigned.by;
             let of = self.program.modules.get(module);
             let by = if module == self.frame.module {
@@ -253,10 +253,10 @@ impl<'s> Scope<'s, '_> {
     /// assigns it.
     pub(super) fn is_stale(&self, text: &str) -> bool {
         let effects = &self.program.effects;
-        effects.has_references()
+        !effects.by_reference.is_empty()
             && words_of(text).any(|word| {
                 let datum = self.program.datum(self.frame.module, &lower(word));
-                datum.is_some_and(|(id, _)| effects.is_passed_and_assigned(id))
+                datum.is_some_and(|(id, _)| effects.by_reference.contains(&id))
             })
     }
 
@@ -268,11 +268,7 @@ impl<'s> Scope<'s, '_> {
         target: &Expression<'_>,
         value: &Expression<'_>,
     ) -> Option<Content> {
-        let (name, indices, components) = match &target.form {
-            Form::Name(name) => (*name, &[][..], &[][..]),
-            Form::Reference(it) => (it.name, it.indices.as_slice(), it.components.as_slice()),
-            _ => return None,
-        };
+        let (name, indices, components) = target.reference()?;
         let lower = lower(name);
         let of_components = components.join(".").to_lowercase();
         let (data_type, content, is_array) = if let Some(local) = self.state.locals.get(&*lower) {
@@ -280,7 +276,7 @@ impl<'s> Scope<'s, '_> {
             (local.data_type, content, matches!(content, Some(Content::Array { .. })))
         } else {
             let (id, datum) = self.program.datum(self.frame.module, &lower)?;
-            let assigned = self.program.effects.assigned(id);
+            let assigned = self.program.effects.assigned.get(&id);
             let is_declared =
                 indices.is_empty() && assigned.is_some_and(|it| it.are_within(&of_components));
             let declared = Some(&datum.content).filter(|_| is_declared);
@@ -288,7 +284,7 @@ impl<'s> Scope<'s, '_> {
                 Content::Uninitialized { sizes } => sizes.is_empty(),
                 content => matches!(content, Content::Single(_)),
             };
-            let known = self.state.global(id);
+            let known = self.state.globals.get(&id);
             let saved = || self.is_saved(datum).then_some(&datum.content);
             let content = known.map_or(declared, |known| self.choices.content(known));
             let is_part = !indices.is_empty() || !components.is_empty();

@@ -218,7 +218,7 @@ impl<'m> Walk<'_, 'm> {
             let datum = self.program.datum(self.frame.module, &lower);
             self.state.locals.contains_key(&*lower)
                 || datum.is_none_or(|(id, datum)| {
-                    datum.storage == Storage::Const || self.state.global(id).is_some()
+                    datum.storage == Storage::Const || self.state.globals.get(&id).is_some()
                 })
         };
         if !names.iter().all(is_certain) {

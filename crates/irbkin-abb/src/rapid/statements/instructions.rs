@@ -72,7 +72,7 @@ impl<'a> StatementReader<'a> {
         let displaced = self.displaced_by.filter(|_| is_pose);
         let place = (!instruction.is_basic()).then(|| written_argument(instruction.name)).flatten();
         let written = place.and_then(|place| step.required.get(place - 1));
-        if let Some(name) = written.and_then(Expression::name) {
+        if let Some((name, ..)) = written.and_then(Expression::reference) {
             self.written.assignments.push(Assignment {
                 at,
                 name,

@@ -383,9 +383,6 @@ pub(crate) fn behind_blanks(bytes: &[u8], mut at: usize) -> usize {
 ///
 /// It is not a comparison: RAPID has none with three operands, as `a<B>c` would be.
 fn placeholder_end(bytes: &[u8], start: usize) -> Option<usize> {
-    if bytes.get(start) != Some(&b'<') {
-        return None;
-    }
     let letters = bytes[start + 1..]
         .iter()
         .take(LONGEST_PLACEHOLDER + 1)
