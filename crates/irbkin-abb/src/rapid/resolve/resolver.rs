@@ -87,7 +87,10 @@ impl<'a> Resolver<'a> {
         if let Some(known) = self.elsewhere.borrow().get(lower) {
             return *known;
         }
-        let found = found_elsewhere(lower, self.context)
+        let find = |home: &'a Module| home.find(lower).or_else(|| home.parts.get(lower));
+        let mut seen = self.context.iter().filter_map(|home| Some((find(home)?, *home)));
+        let found = seen
+            .find(|(datum, _)| datum.scope != Scope::Local)
             .map(|(datum, home)| (datum, self.causes.of_other(lower, home, self.context)));
         self.elsewhere.borrow_mut().insert(lower.to_string(), found);
         found
@@ -377,14 +380,4 @@ pub(crate) fn atoms_of(of: &'static Type, components: &[&str]) -> Range<usize> {
         Some((part, begin)) if !components.is_empty() => begin..begin + part.size(),
         _ => ALL,
     }
-}
-
-/// The datum of other modules that a name in lower case refers to, with its module.
-pub(crate) fn found_elsewhere<'a>(
-    lower: &str,
-    context: &[&'a Module],
-) -> Option<(&'a Datum, &'a Module)> {
-    let find = |module: &'a Module| module.find(lower).or_else(|| module.parts.get(lower));
-    let mut found = context.iter().filter_map(|module| Some((find(module)?, *module)));
-    found.find(|(datum, _)| datum.scope != Scope::Local)
 }

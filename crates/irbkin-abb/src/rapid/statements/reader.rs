@@ -196,12 +196,8 @@ impl Scopes {
 
     /// Find a name in lower case, in a routine or else in the module.
     pub(crate) fn find(&self, routine: usize, lower: &str) -> Option<&Named> {
-        let local = if routine > 0 {
-            self.names.get(routine).and_then(|scope| scope.get(lower))
-        } else {
-            None
-        };
-        local.or_else(|| self.names.first().and_then(|scope| scope.get(lower)))
+        let local = self.names.get(routine).and_then(|scope| scope.get(lower));
+        local.or_else(|| self.names.first()?.get(lower))
     }
 
     /// The components of data of records that a name in lower case and components refer to, with
