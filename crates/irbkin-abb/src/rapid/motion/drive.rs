@@ -2,8 +2,8 @@
 
 use alloc::vec::Vec;
 
-use super::goal::{Goal, Place};
-use super::joints::{Conf, Path, Samples, joint_line, round_joints, solved, way};
+use super::goal::{Conf, Goal, Place};
+use super::joints::{Path, Samples, joint_line, round_joints, solved, way};
 use crate::Error;
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{OrFinding, broken, no_path};

@@ -5,7 +5,6 @@ use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
-use super::joints::Conf;
 use crate::Error;
 use crate::rapid::calc::confdata::{is_old_form, of_old_form};
 use crate::rapid::calc::frames::Frames;
@@ -20,6 +19,17 @@ use crate::rapid::data::settings::CirPathMode;
 use crate::rapid::program::walker::Stepped;
 use irbkin::{Configuration, ConfigurationRequest, Pose, Robot};
 use irbkin_motion::paths::Zone;
+
+/// Whether a target must be met with its own configuration.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::rapid) enum Conf {
+    /// It must; where no solution has it, that is a finding and the nearest one is taken.
+    On,
+    /// The nearest one is taken.
+    Off,
+    /// As `On`, without a finding.
+    Quiet,
+}
 
 /// The destination of a move.
 #[derive(Clone, Copy)]

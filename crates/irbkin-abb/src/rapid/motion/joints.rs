@@ -6,7 +6,7 @@ use core::ops::Range;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::goal::{Goal, Place};
+use super::goal::{Conf, Goal, Place};
 use crate::Error;
 use crate::rapid::calc::confdata::{Over, near, over_quarters};
 use crate::rapid::calc::frames::Frames;
@@ -78,17 +78,6 @@ pub(in crate::rapid) fn way(from: &Pose, to: &Pose) -> Way {
     let apart = (to.rotation.matrix() - from.rotation.matrix()).norm();
     let half_sin = apart / (2.0 * core::f64::consts::SQRT_2);
     [length, 2.0 * half_sin.min(1.0).asin()]
-}
-
-/// Whether a target must be met with its own configuration.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(in crate::rapid) enum Conf {
-    /// It must; where no solution has it, that is a finding and the nearest one is taken.
-    On,
-    /// The nearest one is taken.
-    Off,
-    /// As `On`, without a finding.
-    Quiet,
 }
 
 /// The joints at the target of a move, from `seed`, with what is wrong with them; `None` if it has
