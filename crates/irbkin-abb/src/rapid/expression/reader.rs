@@ -29,6 +29,9 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
 
     /// The expression that begins at the next token.
     pub(crate) fn expression(&mut self) -> Result<Expression<'a>, RapidFault> {
+        if let Some(alone) = self.alone()? {
+            return Ok(alone);
+        }
         let start = self.tokens.peek().start;
         let sum = self.sum()?;
         if self.at_end_of_expression() {
@@ -44,6 +47,24 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             return Err(self.tokens.lacking("an operator, a comma or the end of the expression"));
         }
         Ok(self.made(start, Form::Unread(Box::new(Reason::Operator))))
+    }
+
+    /// A single number or name, most of a module: read without looking for operators.
+    fn alone(&mut self) -> Result<Option<Expression<'a>>, RapidFault> {
+        let (first, mark) = (self.tokens.peek(), self.tokens.mark());
+        let form = match first.kind {
+            TokenKind::Number(value) => Form::Number(value),
+            TokenKind::Name if !is_reserved(self.tokens.text_of(first)) => {
+                Form::Name(self.tokens.text_of(first))
+            }
+            _ => return Ok(None),
+        };
+        self.tokens.take()?;
+        let TokenKind::Symbol(b',' | b';' | b']' | b')' | b'\\') = self.tokens.peek().kind else {
+            self.tokens.rewind(mark);
+            return Ok(None);
+        };
+        Ok(Some(self.made(first.start, form)))
     }
 
     /// The sizes of an array in braces; empty without braces.

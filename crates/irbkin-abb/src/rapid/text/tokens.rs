@@ -289,7 +289,9 @@ impl<'a> Tokens<'a> {
                 let (inside, missing) = ("the header".to_string(), "%%%");
                 return Err(self.fault(start, RapidFaultKind::UnexpectedEnd { inside, missing }));
             }
-            Some(symbol) if SYMBOLS.contains(&symbol) => (TokenKind::Symbol(symbol), start + 1),
+            Some(byte) if byte.is_ascii_punctuation() && SYMBOLS.contains(&byte) => {
+                (TokenKind::Symbol(byte), start + 1)
+            }
             Some(_) => (TokenKind::Name, self.end_of_name(start)?),
         })
     }
