@@ -103,6 +103,11 @@ calls() { ## Times of Python's calls, motions, plans, a RAPID module; QUICK=1 fe
     done
 }
 
+follow() { ## Programs of RAPID below FOLDER: what share is checked, why the rest is not
+    package
+    "$venv/bin/python" benches/follow.py
+}
+
 stages() { ## Time of a pose by stages, with perf; SETS="avx2 avx512"
     # shellcheck disable=SC2086 # A list of words.
     python3 benches/stages.py ${SETS:-}

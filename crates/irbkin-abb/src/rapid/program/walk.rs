@@ -217,8 +217,11 @@ impl<'m> Walk<'_, 'm> {
             let lower = lower(name);
             let datum = self.program.datum(self.frame.module, &lower);
             self.state.locals.contains_key(&*lower)
-                || datum.is_none_or(|(id, datum)| {
-                    datum.storage == Storage::Const || self.state.globals.get(&id).is_some()
+                || datum.is_none_or(|(id, datum)| match datum.storage {
+                    Storage::Const => true,
+                    Storage::Var => self.state.globals.contains_key(&id),
+                    // Another task may assign it.
+                    Storage::Pers => false,
                 })
         };
         if !names.iter().all(is_certain) {

@@ -106,6 +106,10 @@ fn conditions_on_known_values_decide() {
         PERS num mode:=1; PROC no()";
     assert_eq!(codes(body), [Code::OutOfReach]);
     assert_eq!(codes(&body.replace("PERS", "CONST")), [Code::NeverRun]);
+    // Another task may assign a PERS.
+    let set = |storage| format!("mode:=1; WaitUntil go; {}", body.replace("PERS", storage));
+    assert_eq!(codes(&set("VAR")), [Code::NeverRun]);
+    assert_eq!(codes(&set("PERS")), [Code::OutOfReach]);
 }
 
 #[test]
