@@ -11,7 +11,7 @@ flags="-Zunstable-options -Cpanic=immediate-abort -Zlocation-detail=none -Ctarge
 CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$PWD/target/compiler/wasm-ld RUSTFLAGS=$flags \
     ship/cross.sh tests/step.sh "Build irbkin for WebAssembly" \
     cargo rustc --quiet --locked -p irbkin-page --lib --crate-type cdylib,rlib --profile wasm --target wasm32-unknown-unknown \
-    --target-dir "$target" -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size "$@"
+    --target-dir "$target" -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size "$@" -- -Cstrip=symbols
 mkdir -p target/page
 cp "$target/wasm32-unknown-unknown/wasm/irbkin_page.wasm" target/page/irbkin.wasm
 
