@@ -68,10 +68,12 @@ impl Calls for Walk<'_, '_> {
     fn returned(&self, text: &str, call: &Call<'_>) -> Option<Known> {
         let (program, name) = (self.program, call.name.to_lowercase());
         let (home, data_type) = program.function(self.frame.module, &name)?;
-        let is_circular = self.above.iter().any(|it| (it.0, &it.1) == (home, &name))
-            || (self.frame.module, &self.frame.routine) == (home, &name);
         let does_more = program.effects.of_routine(home, &name).is_some_and(Acts::matters);
-        if is_circular || does_more || self.above.len() >= DEEPEST_CALLS || self.is_spent() {
+        if self.is_open(home, &name)
+            || does_more
+            || self.above.len() >= DEEPEST_CALLS
+            || self.is_spent()
+        {
             return None;
         }
         let mut walk = Self::new(program, self.interrupt);
@@ -103,6 +105,13 @@ impl Calls for Walk<'_, '_> {
 }
 
 impl<'m> Walk<'_, 'm> {
+    /// Whether a routine is being followed: a call of it is circular.
+    fn is_open(&self, home: usize, name: &str) -> bool {
+        let own = (self.frame.module, &self.frame.routine);
+        let above = self.above.iter().map(|(module, routine)| (*module, routine));
+        above.chain([own]).any(|(module, routine)| (module, routine.as_str()) == (home, name))
+    }
+
     /// Follow an instruction that may be a call.
     pub(super) fn call(&mut self, skipped: &'m Skipped, instruction: &Instruction<'m>) {
         let Some(name) = instruction.name.clone() else {
@@ -118,9 +127,7 @@ impl<'m> Walk<'_, 'm> {
         if !acts.matters() {
             return;
         }
-        let is_circular = self.above.iter().any(|it| (it.0, &it.1) == (home, &name))
-            || (self.frame.module, &self.frame.routine) == (home, &name);
-        let why = if is_circular {
+        let why = if self.is_open(home, &name) {
             Some(format!("{name} calls itself"))
         } else if self.above.len() >= DEEPEST_CALLS {
             Some(format!("more than {DEEPEST_CALLS} calls within calls"))

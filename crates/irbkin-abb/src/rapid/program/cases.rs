@@ -221,11 +221,6 @@ pub(super) struct Choices {
 }
 
 impl Choices {
-    /// No choices: what is not certain is unknown.
-    pub(super) fn off() -> Self {
-        Self { is_off: Cell::new(true), ..Self::default() }
-    }
-
     /// Evaluate something that has no cases: what is not certain is unknown.
     pub(super) fn without<T>(&self, evaluate: impl FnOnce() -> T) -> T {
         let before = self.is_off.replace(true);

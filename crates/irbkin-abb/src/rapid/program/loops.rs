@@ -13,7 +13,6 @@ use super::walker::Walk;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::unread::{Skipped, Unresolved};
 use crate::rapid::data::value::Value;
-use crate::rapid::expression::tree::Expression;
 
 /// Most passes of a loop that are followed.
 const MOST_PASSES: usize = 1000;
@@ -28,13 +27,9 @@ impl<'m> Walk<'_, 'm> {
     ) {
         let name = &counter.variable;
         let before = self.state.locals.get(name).cloned();
-        let of = |walk: &mut Self, bound: &Option<Expression<'_>>| {
-            let bound = bound.as_ref()?;
-            let (number, assumed) =
-                walk.in_all_cases(|scope| scope.number(&head.text, bound).ok())?;
-            assumed.is_none().then_some(number)
-        };
-        let passes = values_of(counter.bounds.each_ref().map(|bound| of(self, bound)));
+        let bounds = counter.bounds.each_ref();
+        let bounds = bounds.map(|bound| self.number(&head.text, bound.as_ref()?));
+        let passes = values_of(bounds);
         if !passes.is_empty() && self.affords(passes.len(), body) && (self.is_one || is_counted) {
             let depth = self.passes.len();
             for value in passes {

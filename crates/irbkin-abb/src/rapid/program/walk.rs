@@ -9,7 +9,7 @@ use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::cases::{Case, Choices, Known, Way};
+use super::cases::{Case, Known, Way};
 use super::effects::{releases, written_by};
 use super::frame::Frame;
 use super::moves::place_behind;
@@ -224,11 +224,7 @@ impl<'m> Walk<'_, 'm> {
                     Storage::Pers => false,
                 })
         };
-        if !names.iter().all(is_certain) {
-            return None;
-        }
-        let (number, assumed) = self.in_all_cases(|scope| scope.number(text, expression).ok())?;
-        assumed.is_none().then_some(number)
+        if names.iter().all(is_certain) { self.number(text, expression) } else { None }
     }
 
     /// A block that the call that is followed does not execute.
@@ -257,7 +253,7 @@ impl<'m> Walk<'_, 'm> {
         });
         let made: BTreeSet<(usize, usize)> = made.collect();
         for (place, step) in self.left.iter().filter(|(place, _)| !made.contains(place)) {
-            let words = "is never executed: no call has the arguments that it asks for";
+            let words = "is never executed: no call has the arguments or values that it asks for";
             let finding = Finding::new(Code::NeverRun, words).at(step, 0);
             self.notes.push(finding.in_module(place.0));
         }
@@ -386,10 +382,9 @@ impl<'m> Walk<'_, 'm> {
 
     /// Report a calculated target that the robot does not reach.
     fn note_out_of_reach(&mut self, skipped: &'m Skipped, value: &Expression<'m>) {
-        let scope = self.scope(Choices::off());
-        if let Err(reason @ Reason::Robot { .. }) =
-            scope.value(&skipped.text, value, DataType::JointTarget)
-        {
+        let scope = self.scope();
+        let certain = || scope.value(&skipped.text, value, DataType::JointTarget);
+        if let Err(reason @ Reason::Robot { .. }) = scope.choices.without(certain) {
             let found = Finding::unknown(Code::UnknownTarget, &reason, reason.to_string());
             self.notes.push(found.in_module(self.frame.module).at_skipped(skipped, 0));
         }

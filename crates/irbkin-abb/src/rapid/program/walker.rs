@@ -22,6 +22,7 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind, Target};
 use crate::rapid::data::records::GivenTools;
 use crate::rapid::data::unread::Skipped;
+use crate::rapid::expression::tree::Expression;
 use irbkin::Interrupt;
 
 /// Statements, moves, and the way of the tool [mm] that are followed for each hundred bytes of the
@@ -227,7 +228,7 @@ impl<'p, 'm> Walk<'p, 'm> {
     /// The number of the question what a text is here, and whether it is a new one.
     pub(super) fn ask(&mut self, text: &str) -> (usize, bool) {
         let next = self.questions.get();
-        let scope = self.scope(Choices::off());
+        let scope = self.scope();
         let question = scope.question(text);
         let asked = scope.asked.into_inner();
         self.state.asked = asked;
@@ -254,7 +255,7 @@ impl<'p, 'm> Walk<'p, 'm> {
     }
 
     /// The names and values that are known here.
-    pub(super) fn scope(&self, choices: Choices) -> Scope<'_, 'm> {
+    pub(super) fn scope(&self) -> Scope<'_, 'm> {
         Scope {
             calls: self,
             program: self.program,
@@ -262,7 +263,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             frame: &self.frame,
             takes_last: Cell::new(self.takes_last),
             tools: self.tools,
-            choices,
+            choices: Choices::default(),
             returned: RefCell::default(),
             asked: RefCell::new(self.state.asked.clone()),
         }
@@ -273,12 +274,13 @@ impl<'p, 'm> Walk<'p, 'm> {
         &mut self,
         evaluate: impl Fn(&Scope<'_, 'm>) -> T,
     ) -> Vec<Way<T>> {
-        let scope = self.scope(Choices::default());
+        let scope = self.scope();
         let mut ways = Vec::from([scope.choices.end(evaluate(&scope))]);
         while scope.choices.advance() {
             if ways.len() == MOST_CASES {
-                let scope = self.scope(Choices::off());
-                ways = Vec::from([scope.choices.end(evaluate(&scope))]);
+                let scope = self.scope();
+                let value = scope.choices.without(|| evaluate(&scope));
+                ways = Vec::from([scope.choices.end(value)]);
                 break;
             }
             ways.push(scope.choices.end(evaluate(&scope)));
@@ -298,6 +300,12 @@ impl<'p, 'm> Walk<'p, 'm> {
         let first = ways.next()?;
         let are_same = ways.all(|way| (&way.value, &way.assumed) == (&first.value, &first.assumed));
         Some((first.value.filter(|_| are_same)?, first.assumed))
+    }
+
+    /// The number that an expression is in all cases, unless it rests on what is not determined.
+    pub(super) fn number(&mut self, text: &str, expression: &Expression<'_>) -> Option<f64> {
+        let (number, assumed) = self.in_all_cases(|scope| scope.number(text, expression).ok())?;
+        assumed.is_none().then_some(number)
     }
 
     /// The place behind a move that was made before from the same place with the same values.
