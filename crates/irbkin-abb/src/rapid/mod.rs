@@ -71,7 +71,7 @@ pub use self::data::records::{
 pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
 pub use self::data::unread::Skipped;
 pub use self::data::value::{DataType, Value};
-pub use self::expression::whole::DEEPEST_NESTING;
+pub use self::expression::reader::DEEPEST_NESTING;
 pub use self::module::differences::differing_names;
 pub use self::module::read::{decode, parse, parse_record, read};
 pub use self::module::write::{NewValue, rewrite};

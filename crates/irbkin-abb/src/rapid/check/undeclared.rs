@@ -6,13 +6,12 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::rapid::data::finding::{Code, Finding};
-use crate::rapid::data::fit::Fit;
+use crate::rapid::data::fit::misfit;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::table::Entry;
 use crate::rapid::data::unread::NotRead;
 use crate::rapid::expression::names::predefined_names;
-use crate::rapid::expression::whole::WholeReader;
 use crate::rapid::program::arguments::called;
 use crate::rapid::text::fault::RapidFaultKind;
 use crate::rapid::text::tokens::{Called, Tokens};
@@ -77,7 +76,7 @@ pub(super) fn undeclared(
     // The first finding on each name, and how often it is called.
     let mut unknown: BTreeMap<(String, Option<&str>), (usize, usize)> = BTreeMap::new();
     for (index, (module, source)) in modules.iter().zip(sources).enumerate() {
-        let (mut tokens, unread) = (Tokens::of(source), unread_names(module));
+        let (tokens, unread) = (Tokens::of(source), unread_names(module));
         let of_system = of_system.contains(&index) || is_of_system(module);
         for (at, call) in module.calls.iter().enumerate() {
             interrupt.check(at)?;
@@ -102,7 +101,11 @@ pub(super) fn undeclared(
             let finding = match (known, &call.wrong) {
                 (None, Some(wrong)) => Some(Finding::new(Code::WrongArguments, wrong.as_str())),
                 (known, _) => match known.or_else(bare) {
-                    Some(of) => fits_not(&mut tokens, call, of),
+                    Some(of) => {
+                        let given = call.optional.iter().map(|(name, it)| (name.as_str(), *it));
+                        let wrong = misfit(of, call.required, given);
+                        wrong.map(|wrong| Finding::new(Code::WrongArguments, wrong))
+                    }
                     None if unread.contains(&lower) || is_of_add_in(name) => None,
                     None => {
                         // A controller loads the module all the same.
@@ -234,21 +237,4 @@ fn is_slip(a: &str, b: &str) -> bool {
         (0, 1) => is_letter(b, begin),
         _ => false,
     }
-}
-
-/// The fault of the arguments of a call of a routine with a name and arguments.
-fn fits_not(
-    tokens: &mut Tokens<'_>,
-    call: &Called,
-    (name, arguments): (&str, &str),
-) -> Option<Finding> {
-    let is_by_name = begin(tokens.text, call) < call.name.start;
-    tokens.resume(call.name.end + usize::from(is_by_name));
-    if call.is_function || is_by_name {
-        tokens.take().ok()?;
-    }
-    let mut fit = Fit::with(name, Some(arguments));
-    WholeReader::new(tokens, usize::from(call.is_function)).arguments(&mut fit, None).ok()?;
-    tokens.calls.clear();
-    Some(Finding::new(Code::WrongArguments, fit.finished()?))
 }

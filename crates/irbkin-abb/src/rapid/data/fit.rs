@@ -3,12 +3,11 @@
 use alloc::format;
 use alloc::string::String;
 
-use super::table::Entry;
 use crate::rapid::text::place::excerpt;
 
 /// The parts of arguments as the header of a routine has them, each behind a comma, a backslash or
 /// a bar.
-pub(crate) fn parts(arguments: &str) -> impl Iterator<Item = (u8, &str)> {
+pub(crate) fn parts(arguments: &str) -> impl Iterator<Item = (u8, &str)> + Clone {
     let (mut rest, mut sign) = (Some(arguments), b',');
     core::iter::from_fn(move || {
         loop {
@@ -27,83 +26,51 @@ pub(crate) fn parts(arguments: &str) -> impl Iterator<Item = (u8, &str)> {
     })
 }
 
-/// The arguments of a call while they are read.
-pub(crate) struct Fit<'s> {
-    name: &'s str,
-    /// The parameters of the routine; `None` if it is not known.
-    pub(crate) arguments: Option<&'s str>,
+/// The fault of the arguments of a call of a routine with a name and parameters: the number of the
+/// required ones, and the optional ones with whether each has a value.
+pub(crate) fn misfit<'o>(
+    routine: (&str, &str),
     required: usize,
-    /// The optional arguments that were given, by a bit for each with its alternatives.
-    given: u64,
-    /// What is wrong with an optional argument.
-    pub(crate) wrong: Option<String>,
-}
-
-impl<'s> Fit<'s> {
-    /// Of an instruction or a function of RAPID.
-    pub(crate) fn of(entry: Option<&'static Entry>) -> Self {
-        match entry {
-            Some(entry) => Self::with(entry.name, Some(entry.arguments)),
-            None => Self::with("", None),
-        }
-    }
-
-    pub(crate) fn with(name: &'s str, arguments: Option<&'s str>) -> Self {
-        Self { name, arguments, required: 0, given: 0, wrong: None }
-    }
-
-    /// Take a required argument; its number.
-    pub(crate) fn required(&mut self) -> usize {
-        self.required += 1;
-        self.required
-    }
-
-    /// Take an optional argument.
-    pub(crate) fn optional(&mut self, name: &str, has_value: bool) {
-        let (Some(arguments), None) = (self.arguments, &self.wrong) else { return };
+    optional: impl Iterator<Item = (&'o str, bool)>,
+) -> Option<String> {
+    let shown = || format!("{} {}", routine.0, excerpt(routine.1));
+    // A bit for each optional parameter with its alternatives.
+    let mut given = 0_u64;
+    for (name, has_value) in optional {
         let mut group = 0;
-        for (sign, part) in parts(arguments) {
+        let mut all = parts(routine.1).map(|(sign, part)| {
             group += u32::from(sign == b'\\');
+            (sign, group, part)
+        });
+        let found = all.find_map(|(sign, group, part)| {
             let part = part.split('{').next().unwrap_or(part);
             let mut words = part.split_ascii_whitespace();
-            let (of, own) = (words.next().unwrap_or_default(), words.next_back().unwrap_or(part));
-            if own == "..." {
-                return;
-            }
-            if sign == b',' || !own.eq_ignore_ascii_case(name) {
-                continue;
-            }
-            let bit = 1_u64.checked_shl(group).unwrap_or(0);
-            if self.given & bit > 0 {
-                self.wrong = Some(format!("\\{own} is given twice, or with an alternative of it"));
-            } else if !has_value && !of.eq_ignore_ascii_case("switch") {
-                self.wrong = Some(format!("\\{own} has no value, it must be \\{own}:=.."));
-            }
-            self.given |= bit;
-            return;
+            let data_type = words.next().unwrap_or_default();
+            let own = words.next_back().unwrap_or(part);
+            let is_it = own == "..." || sign != b',' && own.eq_ignore_ascii_case(name);
+            is_it.then_some((group, data_type, own))
+        });
+        let Some((group, data_type, own)) = found else {
+            return Some(format!("it has no argument \\{name}: {}", shown()));
+        };
+        if own == "..." {
+            continue;
         }
-        self.wrong = Some(format!("it has no argument \\{name}: {}", self.shown()));
-    }
-
-    /// The fault of the arguments that were taken.
-    pub(crate) fn finished(self) -> Option<String> {
-        let arguments = self.arguments?;
-        let (mut wanted, mut is_open) = (0, false);
-        for (sign, part) in parts(arguments) {
-            wanted += usize::from(sign == b',');
-            is_open |= sign == b',' && part == "...";
+        let bit = 1_u64.checked_shl(group).unwrap_or(0);
+        if given & bit > 0 {
+            return Some(format!("\\{own} is given twice, or with an alternative of it"));
         }
-        if self.wrong.is_none() && !is_open && self.required != wanted {
-            let (found, of) = (self.required, if self.required == 1 { "" } else { "s" });
-            let shown = self.shown();
-            return Some(format!("{found} required argument{of}, it must have {wanted}: {shown}"));
+        if !has_value && !data_type.eq_ignore_ascii_case("switch") {
+            return Some(format!("\\{own} has no value, it must be \\{own}:=.."));
         }
-        self.wrong
+        given |= bit;
     }
-
-    /// The routine with its arguments.
-    fn shown(&self) -> String {
-        let arguments = self.arguments.unwrap_or_default();
-        format!("{} {}", self.name, excerpt(arguments))
+    let wanted = parts(routine.1).filter(|(sign, _)| *sign == b',');
+    let is_open = wanted.clone().any(|(_, part)| part == "...");
+    let wanted = wanted.count();
+    if is_open || required == wanted {
+        return None;
     }
+    let of = if required == 1 { "" } else { "s" };
+    Some(format!("{required} required argument{of}, it must have {wanted}: {}", shown()))
 }

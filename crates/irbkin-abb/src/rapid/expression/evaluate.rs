@@ -147,6 +147,8 @@ impl Evaluator<'_, '_> {
             (Form::Negated(_) | Form::Chain(..), _) => {
                 self.fill_operators(expression, place, atoms)
             }
+            (Form::Not(_), _) => Err(Reason::Negation.into()),
+            (Form::Compared(..), _) => Err(Reason::Operator.into()),
             (Form::Star, _) => Err(Reason::Taught.into()),
             (Form::Unread(reason), _) => Err(Reason::clone(reason).into()),
         }

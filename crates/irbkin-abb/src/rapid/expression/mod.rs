@@ -10,4 +10,3 @@ mod operators;
 pub(crate) mod reader;
 pub(crate) mod references;
 pub(crate) mod tree;
-pub(crate) mod whole;

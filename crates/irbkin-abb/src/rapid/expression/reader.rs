@@ -1,52 +1,120 @@
 //! Read expressions as trees.
 
 use alloc::boxed::Box;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::tree::{Arguments, Call, Expression, Form, Operator, Reference};
-use super::whole::{DEEPEST_NESTING, WholeReader, note};
-use crate::rapid::data::fit::Fit;
+use super::tree::{Arguments, Call, Expression, Form, Operator, Reference, Relation};
+use crate::rapid::data::fit::misfit;
 use crate::rapid::data::table::Entry;
 use crate::rapid::data::unread::Reason;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::skipping::not_closed;
-use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
+use crate::rapid::text::tokens::{Called, Token, TokenKind, Tokens};
 use crate::rapid::text::words::is_reserved;
+
+/// The deepest nesting of brackets and of blocks that is read.
+pub const DEEPEST_NESTING: usize = 64;
 
 /// Initial capacity for the components of an aggregate: most have four or six.
 const USUAL_COMPONENTS: usize = 6;
 
+/// Where an expression is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Within {
+    /// In a declaration or a move.
+    Value,
+    /// In another statement, which says what it lacks.
+    Statement,
+    /// Between the words of a branch or a loop: an instruction may follow.
+    Condition,
+}
+
+/// What is between two operands of a condition.
+#[derive(Clone, Copy)]
+enum Connective {
+    Relation(Relation),
+    Logical,
+}
+
 pub(crate) struct ExpressionReader<'t, 'a> {
     tokens: &'t mut Tokens<'a>,
     depth: usize,
+    within: Within,
 }
 
 impl<'t, 'a> ExpressionReader<'t, 'a> {
     pub(crate) fn new(tokens: &'t mut Tokens<'a>) -> Self {
-        Self { tokens, depth: 0 }
+        Self { tokens, depth: 0, within: Within::Value }
+    }
+
+    /// A reader of what is in a statement that is no declaration and no move.
+    pub(crate) fn of_statement(tokens: &'t mut Tokens<'a>) -> Self {
+        Self { tokens, depth: 0, within: Within::Statement }
+    }
+
+    /// A reader of what is between the words of a branch or a loop.
+    pub(crate) fn of_condition(tokens: &'t mut Tokens<'a>) -> Self {
+        Self { tokens, depth: 0, within: Within::Condition }
     }
 
     /// The expression that begins at the next token.
     pub(crate) fn expression(&mut self) -> Result<Expression<'a>, RapidFault> {
-        if let Some(alone) = self.alone()? {
+        if self.within == Within::Value
+            && let Some(alone) = self.alone()?
+        {
             return Ok(alone);
         }
         let start = self.tokens.peek().start;
-        let sum = self.sum()?;
-        if self.at_end_of_expression() {
-            return Ok(sum);
+        let left = self.sum()?;
+        let Some(first) = self.connective()? else {
+            return if self.may_end() {
+                Ok(left)
+            } else {
+                Err(self.tokens.lacking("an operator, a comma or the end of the expression"))
+            };
+        };
+        let right = self.sum()?;
+        let mut next = self.connective()?;
+        let is_negation = matches!(left.form, Form::Not(_));
+        if let (Connective::Relation(relation), None, false) = (first, next, is_negation) {
+            return Ok(self.made(start, Form::Compared(Box::new([left, right]), relation)));
         }
-        let end = self.tokens.last_end;
-        WholeReader::new(self.tokens, self.depth).rest()?;
-        if self.tokens.last_end == end {
-            // The end of the statement lacks.
-            if self.tokens.peek().kind == TokenKind::Name && self.tokens.is_first_of_line() {
-                return Ok(sum);
+        while next.is_some() {
+            self.sum()?;
+            next = self.connective()?;
+        }
+        let reason = if is_negation { Reason::Negation } else { Reason::Operator };
+        Ok(self.made(start, Form::Unread(Box::new(reason))))
+    }
+
+    /// Read what is between two operands of a condition, if it is next.
+    fn connective(&mut self) -> Result<Option<Connective>, RapidFault> {
+        let token = self.tokens.peek();
+        let logical = ["AND", "OR", "XOR"];
+        let relation = match token.kind {
+            TokenKind::Symbol(b'=') => Relation::Equal,
+            TokenKind::Symbol(b'<') => Relation::Less,
+            TokenKind::Symbol(b'>') => Relation::Greater,
+            TokenKind::Name if logical.iter().any(|word| self.tokens.at_word(word)) => {
+                self.tokens.take()?;
+                return Ok(Some(Connective::Logical));
             }
-            return Err(self.tokens.lacking("an operator, a comma or the end of the expression"));
+            _ => return Ok(None),
+        };
+        self.tokens.take()?;
+        let second = self.tokens.peek();
+        let of_two = match (relation, second.kind) {
+            _ if second.start != token.end => None,
+            (Relation::Less, TokenKind::Symbol(b'>')) => Some(Relation::Unequal),
+            (Relation::Less, TokenKind::Symbol(b'=')) => Some(Relation::AtMost),
+            (Relation::Greater, TokenKind::Symbol(b'=')) => Some(Relation::AtLeast),
+            _ => None,
+        };
+        if of_two.is_some() {
+            self.tokens.take()?;
         }
-        Ok(self.made(start, Form::Unread(Box::new(Reason::Operator))))
+        Ok(Some(Connective::Relation(of_two.unwrap_or(relation))))
     }
 
     /// A single number or name, most of a module: read without looking for operators.
@@ -84,6 +152,15 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(sizes)
     }
 
+    /// The value behind `:=`, if there is one.
+    pub(crate) fn assigned(&mut self) -> Result<Option<Expression<'a>>, RapidFault> {
+        if self.tokens.peek().kind != TokenKind::Assign {
+            return Ok(None);
+        }
+        self.tokens.take()?;
+        self.expression().map(Some)
+    }
+
     /// Expressions between commas, up to the closing symbol; the opening one is already read.
     pub(crate) fn list(
         &mut self,
@@ -92,7 +169,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     ) -> Result<Vec<Expression<'a>>, RapidFault> {
         self.begin(open)?;
         let mut expressions = Vec::new();
-        if !self.tokens.peek().is(close) {
+        if self.within != Within::Value || !self.tokens.peek().is(close) {
             expressions.reserve_exact(USUAL_COMPONENTS);
             expressions.push(self.expression()?);
             while self.tokens.take_if(b',')? {
@@ -117,10 +194,14 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         if self.tokens.take_if(close)? { Ok(()) } else { Err(not_closed(self.tokens, open, close)) }
     }
 
-    fn at_end_of_expression(&self) -> bool {
+    /// Whether an expression may end before the next token.
+    fn may_end(&self) -> bool {
         match self.tokens.peek().kind {
+            _ if self.within != Within::Value => true,
             TokenKind::Symbol(symbol) => b",;])}\\:(".contains(&symbol),
             TokenKind::End | TokenKind::Assign => true,
+            // The end of the statement lacks.
+            TokenKind::Name => self.tokens.is_first_of_line(),
             _ => false,
         }
     }
@@ -217,15 +298,16 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
 
     fn parenthesis(&mut self, open: Token) -> Result<Expression<'a>, RapidFault> {
         self.tokens.take()?;
-        let mut inside = self.list(open, b')')?;
-        if let (Some(only), true) = (inside.pop(), inside.is_empty()) {
-            return Ok(self.made(open.start, only.form));
+        self.begin(open)?;
+        let inside = self.expression()?;
+        if self.tokens.peek().is(b',') {
+            return Err(self.tokens.unexpected("an operator or )"));
         }
-        let (found, wanted) = ("()".to_string(), "a value");
-        Err(self.tokens.fault(open.start, RapidFaultKind::Unexpected { found, wanted }))
+        self.close(open, b')')?;
+        Ok(self.made(open.start, inside.form))
     }
 
-    /// TRUE, FALSE, a function or a reference.
+    /// TRUE, FALSE, NOT, a function or a reference.
     fn name(&mut self, token: Token) -> Result<Form<'a>, RapidFault> {
         let name = self.tokens.text_of(token);
         if name.eq_ignore_ascii_case("TRUE") || name.eq_ignore_ascii_case("FALSE") {
@@ -233,10 +315,11 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             return Ok(Form::Bool(name.eq_ignore_ascii_case("TRUE")));
         }
         if name.eq_ignore_ascii_case("NOT") {
-            WholeReader::new(self.tokens, self.depth).expression()?;
-            return Ok(Form::Unread(Box::new(Reason::Negation)));
+            self.tokens.take()?;
+            return Ok(Form::Not(Box::new(self.factor()?)));
         }
-        if is_reserved(name) || self.tokens.begins_statement(false) {
+        let is_unfinished = self.within != Within::Condition && self.tokens.begins_statement(false);
+        if is_reserved(name) || is_unfinished {
             return Err(self.tokens.lacking("a value"));
         }
         self.tokens.take()?;
@@ -245,6 +328,12 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             self.tokens.take()?;
             return Ok(Form::Call(Box::new(self.call(token, next)?)));
         }
+        self.behind_name(name)
+    }
+
+    /// A reference, of which the name is read.
+    pub(crate) fn behind_name(&mut self, name: &'a str) -> Result<Form<'a>, RapidFault> {
+        let next = self.tokens.peek();
         if !next.is(b'{') && !next.is(b'.') {
             return Ok(Form::Name(name));
         }
@@ -261,23 +350,33 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     fn call(&mut self, token: Token, open: Token) -> Result<Call<'a>, RapidFault> {
         self.begin(open)?;
         let name = self.tokens.text_of(token);
-        let mut arguments = Arguments::default();
-        let mut fit = Fit::of(Entry::function(name));
-        let mut is_more = !self.tokens.peek().is(b')');
-        while is_more {
-            if self.tokens.take_if(b'\\')? {
-                let (name, value) = self.optional()?;
-                fit.optional(name, value.is_some());
-                arguments.optional.push((name, value));
-            } else {
-                arguments.required.push(self.argument()?);
-                fit.required();
-            }
-            is_more = self.tokens.take_if(b',')? || self.tokens.peek().is(b'\\');
-        }
+        let arguments = self.arguments()?;
         self.close(open, b')')?;
-        note(self.tokens, token, true, fit);
+        note(self.tokens, token, true, &arguments);
         Ok(Call { name, arguments, components: self.tokens.components()? })
+    }
+
+    /// The arguments of a function, an instruction or a call, up to what ends them.
+    pub(crate) fn arguments(&mut self) -> Result<Arguments<'a>, RapidFault> {
+        let mut found = Arguments::default();
+        for count in 0.. {
+            let token = self.tokens.peek();
+            let is_outside = self.depth == 0;
+            let is_end =
+                token.is(b')') || token.is(b';') || self.tokens.begins_statement(is_outside);
+            if count == 0 && is_end || count > 0 && !token.is(b',') && !token.is(b'\\') {
+                break;
+            }
+            if count > 0 {
+                self.tokens.take_if(b',')?;
+            }
+            if self.tokens.take_if(b'\\')? {
+                found.optional.push(self.optional()?);
+            } else {
+                found.required.push(self.argument()?);
+            }
+        }
+        Ok(found)
     }
 
     /// A required argument: its value, perhaps after its name and `:=`. The name is not kept:
@@ -298,14 +397,32 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             let form = Form::Unread(Box::new(Reason::OptionalArgument));
             return Ok((name, Some(self.made(mark.start, form))));
         }
-        if self.tokens.peek().kind != TokenKind::Assign {
-            return Ok((name, None));
-        }
-        self.tokens.take()?;
-        Ok((name, Some(self.expression()?)))
+        Ok((name, self.assigned()?))
     }
 
     fn made(&self, start: usize, form: Form<'a>) -> Expression<'a> {
         Expression { start, end: self.tokens.last_end, form }
+    }
+}
+
+/// Note a call of a routine that RAPID does not have, or does not have with these arguments; `name`
+/// may be the text of a call by name.
+pub(crate) fn note(
+    tokens: &mut Tokens<'_>,
+    name: Token,
+    is_function: bool,
+    arguments: &Arguments<'_>,
+) {
+    let quote = usize::from(name.kind == TokenKind::Text);
+    let name = name.start + quote..name.end - quote;
+    let text = &tokens.text[name.clone()];
+    let entry = if is_function { Entry::function(text) } else { Entry::instruction(text) };
+    let required = arguments.required.len();
+    let given = arguments.optional.iter().map(|(name, value)| (*name, value.is_some()));
+    let of_entry = |it: &Entry| misfit((it.name, it.arguments), required, given.clone());
+    let wrong = entry.and_then(of_entry);
+    if entry.is_none() || wrong.is_some() {
+        let optional = given.map(|(name, has_value)| (String::from(name), has_value)).collect();
+        tokens.calls.push(Called { name, is_function, required, optional, wrong });
     }
 }

@@ -48,7 +48,8 @@ impl<'a> Expression<'a> {
                     operand.collect_names(names);
                 }
             }
-            Form::Number(_) | Form::Text(_) | Form::Bool(_) | Form::Star | Form::Unread(_) => {}
+            // What is not evaluated depends on nothing.
+            _ => {}
         }
     }
 }
@@ -68,6 +69,8 @@ pub(crate) enum Form<'a> {
     Negated(Box<Expression<'a>>),
     /// Numbers that are added or multiplied, from left to right.
     Chain(Box<Expression<'a>>, Vec<(Operator, Expression<'a>)>),
+    Not(Box<Expression<'a>>),
+    Compared(Box<[Expression<'a>; 2]>, Relation),
     /// The teach pendant's `*`.
     Star,
     /// Not evaluated, for this reason, whatever its names refer to.
@@ -98,6 +101,14 @@ pub(crate) struct Arguments<'a> {
     pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
 }
 
+impl<'a> Arguments<'a> {
+    /// The value of the first optional argument that has this name, in any case, and a value.
+    pub(crate) fn value(&self, name: &str) -> Option<&Expression<'a>> {
+        let mut named = self.optional.iter().filter(|(own, _)| own.eq_ignore_ascii_case(name));
+        named.find_map(|(_, value)| value.as_ref())
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Operator {
     Plus,
@@ -106,6 +117,31 @@ pub(crate) enum Operator {
     Over,
     Div,
     Mod,
+}
+
+/// A relation of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Relation {
+    Equal,
+    Unequal,
+    Less,
+    AtMost,
+    Greater,
+    AtLeast,
+}
+
+impl Relation {
+    /// Whether it holds.
+    pub(crate) fn holds(self, left: f64, right: f64) -> bool {
+        match self {
+            Self::Equal => left.total_cmp(&right).is_eq(),
+            Self::Unequal => left.total_cmp(&right).is_ne(),
+            Self::Less => left < right,
+            Self::AtMost => left <= right,
+            Self::Greater => left > right,
+            Self::AtLeast => left >= right,
+        }
+    }
 }
 
 /// The text of an expression, shortened.

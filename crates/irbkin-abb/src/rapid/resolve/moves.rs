@@ -51,8 +51,8 @@ impl<'a> Resolver<'a> {
         step: &WrittenMove<'a>,
         role: &'static str,
     ) -> Result<Option<Known<f64>>, RapidFault> {
-        let mut values = step.values.iter();
-        match values.find(|(own, _)| own.eq_ignore_ascii_case(&role[1..])) {
+        let mut options = step.arguments.optional.iter();
+        match options.find(|(own, _)| own.eq_ignore_ascii_case(&role[1..])) {
             None => Ok(None),
             Some((_, None)) => Ok(Some(Err(Reason::Unfinished))),
             Some((_, Some(number))) => known(self.evaluator(step, role).record(number)).map(Some),
@@ -103,7 +103,7 @@ impl<'a> Resolver<'a> {
         let evaluator = self.evaluator(step, "");
         let is_basic = step.instruction.is_basic();
         let type_of = |it: &Expression<'a>| if is_basic { None } else { evaluator.type_name(it) };
-        let types: Vec<Option<String>> = step.required.iter().map(type_of).collect();
+        let types: Vec<Option<String>> = step.arguments.required.iter().map(type_of).collect();
         let types: Vec<Option<&str>> = types.iter().map(Option::as_deref).collect();
         step.instruction.places(&types)
     }
@@ -168,9 +168,9 @@ impl<'a> Resolver<'a> {
         let options = core::mem::take(&mut written.options);
         let step = &*written;
         let Places { via, target, speed, zone, tool } = places;
-        let [target, speed] = [target, speed].map(|place| step.required.get(place));
+        let [target, speed] = [target, speed].map(|place| step.arguments.required.get(place));
         let (Some(target), Some(speed)) = (target, speed) else { return Ok(None) };
-        let [via, zone, tool] = [via, zone, tool].map(|place| step.required.get(place?));
+        let [via, zone, tool] = [via, zone, tool].map(|place| step.arguments.required.get(place?));
         let way = step.instruction.way;
         let target = if matches!(way, MoveKind::MoveAbsJ | MoveKind::MoveExtJ) {
             let Argument { text, span, value } = self.argument(step, "target", target)?;
@@ -180,7 +180,8 @@ impl<'a> Resolver<'a> {
             Argument { text, span, value: value.map(Target::RobTarget) }
         };
         let no_tool = Argument { text: String::new(), span: 0..0, value: Ok(ToolData::TOOL0) };
-        let wobj = step.wobj.as_ref().map(|wobj| self.argument(step, "work object", wobj));
+        let wobj =
+            step.arguments.value("WObj").map(|wobj| self.argument(step, "work object", wobj));
         Ok(Some(Move {
             kind: way,
             instruction: step.name.to_string(),
@@ -210,7 +211,7 @@ impl<'a> Resolver<'a> {
     fn extra(&self, step: &WrittenMove<'a>, places: Places) -> Vec<ExtraArgument> {
         let Places { via, target, speed, zone, tool } = places;
         let own = [via, Some(target), Some(speed), zone, tool];
-        let all = step.required.iter().enumerate();
+        let all = step.arguments.required.iter().enumerate();
         let extra = all.filter(|(place, _)| !own.contains(&Some(*place)));
         extra.map(|(place, it)| ExtraArgument { place, text: self.source(it) }).collect()
     }

@@ -3,8 +3,7 @@
 use alloc::vec::Vec;
 
 use super::declarations::read_name;
-use crate::rapid::data::fit::Fit;
-use crate::rapid::expression::whole::{DEEPEST_NESTING, WholeReader};
+use crate::rapid::expression::reader::{DEEPEST_NESTING, ExpressionReader};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
 use crate::rapid::text::words::is_reserved;
@@ -120,7 +119,7 @@ impl<'a> Blocks<'a> {
             // A handler may name the errors that it handles.
             "ERROR" if tokens.peek().is(b'(') => {
                 tokens.take()?;
-                WholeReader::of_condition(tokens).arguments(&mut Fit::of(None), None)?;
+                ExpressionReader::of_condition(tokens).arguments()?;
                 tokens.demand(b')', "a comma or )")
             }
             _ => Ok(()),
@@ -177,7 +176,7 @@ impl<'a> Blocks<'a> {
 
 /// Read what is between the words of a branch or a loop.
 fn condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
-    WholeReader::of_condition(tokens).expression()
+    ExpressionReader::of_condition(tokens).expression().map(|_| ())
 }
 
 pub(super) fn demand_word(tokens: &mut Tokens<'_>, word: &'static str) -> Result<(), RapidFault> {

@@ -11,7 +11,6 @@ use crate::rapid::data::module::{Content, Scope, Storage};
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::direct::read_direct;
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::whole::WholeReader;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
 use crate::rapid::text::words::is_name_token;
@@ -70,7 +69,9 @@ pub(crate) fn read_declaration<'a>(
             if let TypeKind::Record(components) = kind {
                 parts = read_parts((tokens, faults), (types, components), start, place, name)?;
             } else {
-                WholeReader::new(tokens, 0).sizes_and_value()?;
+                let mut reader = ExpressionReader::of_statement(tokens);
+                reader.sizes()?;
+                reader.assigned()?;
                 end_statement(tokens, faults, "a semicolon")?;
             }
             let unfinished = tokens.unfinished_since(from);

@@ -8,19 +8,17 @@ use super::blocks::demand_word;
 use super::faults::end_statement;
 use super::moves::{WrittenMove, read_move};
 use super::reader::{Assignment, Named, StatementReader};
-use crate::rapid::data::fit::Fit;
 use crate::rapid::data::instructions::{Effect, Shift};
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::Setting;
-use crate::rapid::data::table::Entry;
 use crate::rapid::data::types::Type;
 use crate::rapid::data::unread::NotRead;
 use crate::rapid::expression::content::Placed;
-use crate::rapid::expression::tree::Expression;
-use crate::rapid::expression::whole::{WholeReader, note};
+use crate::rapid::expression::reader::{ExpressionReader, note};
+use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind};
 
@@ -33,7 +31,7 @@ impl<'a> StatementReader<'a> {
         if name.is(b'%') {
             return Err(self.tokens.unexpected("the name of a procedure"));
         }
-        WholeReader::new(&mut self.tokens, 0).expression()?;
+        ExpressionReader::of_statement(&mut self.tokens).expression()?;
         let is_constant = name.kind == TokenKind::Text && self.tokens.last_end == name.end;
         self.tokens.demand(b'%', "%")?;
         if is_constant { self.instruction(first, name) } else { self.call(first, None) }
@@ -71,7 +69,7 @@ impl<'a> StatementReader<'a> {
         let is_pose = !matches!(instruction.way, MoveKind::MoveAbsJ | MoveKind::MoveExtJ);
         let displaced = self.displaced_by.filter(|_| is_pose);
         let place = (!instruction.is_basic()).then(|| written_argument(instruction.name)).flatten();
-        let written = place.and_then(|place| step.required.get(place - 1));
+        let written = place.and_then(|place| step.arguments.required.get(place - 1));
         if let Some((name, ..)) = written.and_then(Expression::reference) {
             self.written.assignments.push(Assignment {
                 at,
@@ -112,17 +110,15 @@ impl<'a> StatementReader<'a> {
     fn assignment(&mut self, first: Token) -> Result<(), RapidFault> {
         let name = self.tokens.text_of(first);
         let is_element = self.tokens.peek().is(b'{');
-        let components = self.assigned_components()?;
-        if self.tokens.peek().kind != TokenKind::Assign {
-            return Err(self.tokens.lacking(":="));
-        }
-        self.tokens.take()?;
-        let mut wrong = None;
-        match self.type_of_assigned(name, is_element, &components) {
-            Some(of) => WholeReader::new(&mut self.tokens, 0).value_of(of, &mut wrong)?,
-            None => WholeReader::new(&mut self.tokens, 0).expression()?,
-        }
-        if let Some((byte, of, found)) = wrong {
+        let mut reader = ExpressionReader::of_statement(&mut self.tokens);
+        let form = reader.behind_name(name)?;
+        let Some(value) = reader.assigned()? else { return Err(self.tokens.lacking(":=")) };
+        let components = match form {
+            Form::Reference(target) => target.components,
+            _ => Vec::new(),
+        };
+        let of = self.type_of_assigned(name, is_element, &components);
+        if let Some((byte, of, found)) = of.and_then(|of| wrong_part(&value, of)) {
             let (thing, part) = (name.to_string(), of.name.to_string());
             let (wanted, missing) = (of.components().len(), "");
             let kind = RapidFaultKind::ComponentCount { thing, part, found, wanted, missing };
@@ -134,16 +130,13 @@ impl<'a> StatementReader<'a> {
         Ok(())
     }
 
-    /// The type of what is assigned an aggregate, if the datum is declared above.
+    /// The type of what is assigned, if the datum is declared above.
     fn type_of_assigned(
         &self,
         name: &str,
         is_element: bool,
         components: &[&str],
     ) -> Option<&'static Type> {
-        if !self.tokens.peek().is(b'[') {
-            return None;
-        }
         let named = self.written.scopes.find(self.routine, &name.to_lowercase());
         let Some(Named::Datum(index)) = named else { return None };
         let is_single = |it: &Placed| match &it.content {
@@ -165,11 +158,11 @@ impl<'a> StatementReader<'a> {
             _ => matches!(word, "GOTO" | "CONNECT"),
         };
         if has_value {
-            WholeReader::new(&mut self.tokens, 0).expression()?;
+            ExpressionReader::of_statement(&mut self.tokens).expression()?;
         }
         if word == "CONNECT" {
             demand_word(&mut self.tokens, "WITH")?;
-            WholeReader::new(&mut self.tokens, 0).expression()?;
+            ExpressionReader::of_statement(&mut self.tokens).expression()?;
         }
         self.end("a semicolon")?;
         self.skip(first, NotRead::Instruction { name: self.tokens.text_of(first).to_string() });
@@ -179,14 +172,10 @@ impl<'a> StatementReader<'a> {
     /// An instruction or a call, behind its name; without one the name is calculated.
     pub(super) fn call(&mut self, first: Token, named: Option<Token>) -> Result<(), RapidFault> {
         let name = named.map(|it| self.tokens.text_of(it).trim_matches('"'));
-        let entry = name.and_then(Entry::instruction);
-        let place = name.and_then(written_argument);
-        let mut fit = Fit::of(entry);
-        let mut reader = WholeReader::new(&mut self.tokens, 0);
-        let assigned = reader.arguments(&mut fit, place)?;
+        let arguments = ExpressionReader::of_statement(&mut self.tokens).arguments()?;
         self.end("a comma or a semicolon")?;
         if let Some(name) = named {
-            note(&mut self.tokens, name, false, fit);
+            note(&mut self.tokens, name, false, &arguments);
         }
         let what = match name.filter(|it| Effect::of(it) == Effect::Moves) {
             Some(name) => NotRead::Motion { name: name.to_string() },
@@ -198,7 +187,9 @@ impl<'a> StatementReader<'a> {
             Some(Effect::Displaces(_)) => self.displaced_by = Some(line),
             _ => {}
         }
-        if let Some(name) = assigned {
+        let written = name.and_then(written_argument);
+        let written = written.and_then(|place| arguments.required.get(place - 1));
+        if let Some((name, ..)) = written.and_then(Expression::reference) {
             let (at, components) = (self.at(), Vec::new());
             self.written.assignments.push(Assignment { at, name, components, line });
         }
@@ -234,12 +225,18 @@ impl<'a> StatementReader<'a> {
         self.written.settings.push(Setting { line, column, routine, text });
         Ok(true)
     }
+}
 
-    /// The names of the component that an assignment is to, behind the name and its indices.
-    fn assigned_components(&mut self) -> Result<Vec<&'a str>, RapidFault> {
-        if self.tokens.peek().is(b'{') {
-            WholeReader::new(&mut self.tokens, 0).list(b'}')?;
-        }
-        self.tokens.components()
+/// The first aggregate in a value of a type that has another number of components: its first byte,
+/// its type and that number.
+fn wrong_part(value: &Expression<'_>, of: &'static Type) -> Option<(usize, &'static Type, usize)> {
+    let Form::Aggregate(parts) = &value.form else { return None };
+    let components = of.components();
+    if components.is_empty() {
+        return None;
     }
+    let mut inside = parts.iter().zip(components);
+    let inside = inside.find_map(|(part, (_, of))| wrong_part(part, of));
+    let is_wrong = parts.len() != components.len();
+    inside.or_else(|| is_wrong.then_some((value.start, of, parts.len())))
 }

@@ -4,14 +4,12 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::faults::{Faults, end_statement};
-use crate::rapid::data::fit::Fit;
 use crate::rapid::data::moves::MoveOption;
 use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::expression::names::At;
-use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::Expression;
-use crate::rapid::expression::whole::note;
+use crate::rapid::expression::reader::{ExpressionReader, note};
+use crate::rapid::expression::tree::Arguments;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, Tokens};
 
@@ -31,11 +29,9 @@ pub(crate) struct WrittenMove<'a> {
     pub(crate) column: usize,
     /// Line of the instruction that displaces it.
     pub(crate) displaced: Option<usize>,
-    pub(crate) required: Vec<Expression<'a>>,
-    pub(crate) wobj: Option<Expression<'a>>,
+    pub(crate) arguments: Arguments<'a>,
+    /// The optional arguments but for the work object, as they are written.
     pub(crate) options: Vec<MoveOption>,
-    /// The names and the values of the options, to be evaluated.
-    pub(crate) values: Vec<(&'a str, Option<Expression<'a>>)>,
     pub(crate) settings: MotionSettings,
 }
 
@@ -48,14 +44,13 @@ pub(crate) fn read_move<'a>(
     (start, name): (usize, Token),
 ) -> Result<Option<WrittenMove<'a>>, RapidFault> {
     let (line, column) = tokens.line_and_column(start);
-    let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) =
-        (Vec::with_capacity(USUAL_ARGUMENTS), Vec::new(), None);
-    let mut values = Vec::new();
-    let mut fit = Fit::with(instruction.name, Some(instruction.arguments));
+    let mut arguments = Arguments::default();
+    arguments.required.reserve_exact(USUAL_ARGUMENTS);
+    let mut options = Vec::new();
     loop {
         let next = tokens.peek();
         // A comma may precede an optional argument too.
-        let is_first = required.is_empty() && options.is_empty() && wobj.is_none();
+        let is_first = arguments.required.is_empty() && arguments.optional.is_empty();
         let is_end = is_first && tokens.begins_statement(true);
         if next.is(b';') || is_end || !is_first && !next.is(b',') && !next.is(b'\\') {
             break;
@@ -64,40 +59,33 @@ pub(crate) fn read_move<'a>(
             tokens.take_if(b',')?;
         }
         if !tokens.take_if(b'\\')? {
-            required.push(ExpressionReader::new(tokens).argument()?);
+            arguments.required.push(ExpressionReader::new(tokens).argument()?);
             continue;
         }
         let (name, value) = ExpressionReader::new(tokens).optional()?;
-        match value {
-            Some(value) if wobj.is_none() && name.eq_ignore_ascii_case("WObj") => {
-                fit.optional(name, true);
-                wobj = Some(value);
-            }
-            value => {
-                fit.optional(name, value.is_some());
-                let text = value.as_ref().map(|it| tokens.text[it.start..it.end].to_string());
-                options.push(MoveOption { after: required.len(), name: name.to_string(), text });
-                values.push((name, value));
-            }
+        let is_wobj = name.eq_ignore_ascii_case("WObj") && value.is_some();
+        if !is_wobj || arguments.value("WObj").is_some() {
+            let text = value.as_ref().map(|it| tokens.text[it.start..it.end].to_string());
+            let after = arguments.required.len();
+            options.push(MoveOption { after, name: name.to_string(), text });
         }
+        arguments.optional.push((name, value));
     }
     end_statement(tokens, faults, "a comma or a semicolon")?;
     if tokens.unfinished_since(start) {
         return Ok(None);
     }
-    if instruction.is_basic() && required.len() != instruction.arguments() {
+    let found = arguments.required.len();
+    if instruction.is_basic() && found != instruction.arguments() {
         let kind = RapidFaultKind::ArgumentCount {
             instruction: instruction.name,
-            found: required.len(),
+            found,
             wanted: instruction.arguments(),
         };
         return Err(tokens.fault(start, kind));
     }
-    if fit.wrong.is_some() || !instruction.is_basic() {
-        for _ in &required {
-            fit.required();
-        }
-        note(tokens, name, false, fit);
+    if !arguments.optional.is_empty() || !instruction.is_basic() {
+        note(tokens, name, false, &arguments);
     }
     Ok(Some(WrittenMove {
         instruction,
@@ -108,10 +96,8 @@ pub(crate) fn read_move<'a>(
         line,
         column,
         displaced: None,
-        required,
-        wobj,
+        arguments,
         options,
-        values,
         settings: MotionSettings::default(),
     }))
 }

@@ -15,7 +15,7 @@ use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::fault::RapidFault;
-use crate::rapid::text::tokens::{TokenKind, Tokens};
+use crate::rapid::text::tokens::Tokens;
 
 /// Most components of a datum that are read: records in records could have any number.
 const MOST_PARTS: usize = 64;
@@ -45,11 +45,8 @@ pub(super) fn read_parts<'a>(
     name: &'a str,
 ) -> Result<Vec<DatumPart<'a>>, RapidFault> {
     let sizes = ExpressionReader::new(tokens).sizes()?;
-    let (value_place, mut value) = (tokens.last_end, None);
-    if tokens.peek().kind == TokenKind::Assign {
-        tokens.take()?;
-        value = Some(ExpressionReader::new(tokens).expression()?);
-    }
+    let value_place = tokens.last_end;
+    let value = ExpressionReader::new(tokens).assigned()?;
     end_statement(tokens, faults, "a semicolon")?;
     let end = tokens.last_end;
     let (line, column) = tokens.line_and_column(start);

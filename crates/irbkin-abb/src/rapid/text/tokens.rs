@@ -83,6 +83,10 @@ pub(crate) struct Called {
     /// Bytes of its name.
     pub(crate) name: Range<usize>,
     pub(crate) is_function: bool,
+    /// The number of its required arguments.
+    pub(crate) required: usize,
+    /// Its optional arguments, and whether each has a value.
+    pub(crate) optional: Vec<(String, bool)>,
     /// The fault of the arguments of one that RAPID has.
     pub(crate) wrong: Option<String>,
 }
