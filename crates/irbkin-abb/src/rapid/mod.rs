@@ -69,7 +69,7 @@ pub use self::data::records::{
     JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
 };
 pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
-pub use self::data::unread::Skipped;
+pub use self::data::statement::Statement;
 pub use self::data::value::{DataType, Value};
 pub use self::expression::reader::DEEPEST_NESTING;
 pub use self::module::differences::differing_names;

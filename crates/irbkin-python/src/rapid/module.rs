@@ -114,7 +114,7 @@ impl RapidModule {
     /// The parts that were not read, in the order of the text: a tuple of `Skipped`.
     #[getter]
     fn skipped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.module.skipped().iter().map(Skipped::from))
+        PyTuple::new(py, self.module.skipped().into_iter().map(Skipped::from))
     }
 
     /// The faults of the text, in its order: a tuple of `TextFault`, which is empty

@@ -239,10 +239,11 @@ impl From<&rapid::Routine> for Routine {
     }
 }
 
-impl From<&rapid::Skipped> for Skipped {
-    fn from(part: &rapid::Skipped) -> Self {
-        let rapid::Skipped { line, column, routine, what, text, .. } = part.clone();
-        Self { line, column, routine, what: what.to_string(), text }
+impl From<&rapid::Statement> for Skipped {
+    fn from(part: &rapid::Statement) -> Self {
+        let (what, text) = (part.what(), part.text.clone());
+        let routine = part.routine.as_deref().map(String::from);
+        Self { line: part.line, column: part.column, routine, what, text }
     }
 }
 

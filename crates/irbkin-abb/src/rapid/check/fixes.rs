@@ -6,13 +6,13 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::finding::{Edit, Finding};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::Move;
 use crate::rapid::expression::evaluate::positive_whole;
 use crate::rapid::expression::functions::displaces;
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::program::whole::Program;
 use crate::rapid::text::tokens::Tokens;
 use irbkin::Configuration;
@@ -139,10 +139,10 @@ impl Finder<'_, '_> {
             }
             Form::Name(name) => self.of_name(name, &[], at, names),
             Form::Reference(reference) if reference.components.is_empty() => {
-                self.of_name(reference.name, &reference.indices, at, names)
+                self.of_name(&reference.name, &reference.indices, at, names)
             }
             // A displaced target keeps its confdata.
-            Form::Call(call) if displaces(call.name) => {
+            Form::Call(call) if displaces(&call.name) => {
                 self.of_value(call.arguments.required.first()?, begin, at, names)
             }
             _ => None,

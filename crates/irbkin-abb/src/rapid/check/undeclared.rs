@@ -9,10 +9,9 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::fit::misfit;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::{Module, Routine};
+use crate::rapid::data::statement::{Statement, StatementKind};
 use crate::rapid::data::table::Entry;
-use crate::rapid::data::unread::NotRead;
 use crate::rapid::expression::names::predefined_names;
-use crate::rapid::program::arguments::called;
 use crate::rapid::text::fault::RapidFaultKind;
 use crate::rapid::text::tokens::{Called, Tokens};
 use irbkin::{Interrupt, Interrupted};
@@ -47,11 +46,12 @@ fn may_be_elsewhere(modules: &[&Module], is_whole: Option<bool>) -> bool {
     let is_open = |module: &&Module| {
         let is_encoded = module.faults.iter().any(|it| it.kind == RapidFaultKind::Encoded);
         is_encoded
-            || module.skipped.iter().any(|it| match &it.what {
-                NotRead::Instruction { name } if is_one(name, &["%", "CallByVar"]) => {
-                    is_whole.is_none() && (name != "%" || called(&it.text).is_none())
+            || module.statements.iter().any(|it| match &it.kind {
+                StatementKind::Instruction(it) if it.name.is_none() => is_whole.is_none(),
+                StatementKind::Instruction(it) => {
+                    is_one(&it.word, &["Load", "StartLoad"])
+                        || is_whole.is_none() && is_one(&it.word, &["CallByVar"])
                 }
-                NotRead::Instruction { name } => is_one(name, &["Load", "StartLoad"]),
                 _ => false,
             })
     };
@@ -210,7 +210,8 @@ fn listed(names: &[String]) -> String {
 /// The names in lower case behind the first words of what is not read: a routine may be declared
 /// there.
 fn unread_names(module: &Module) -> BTreeSet<String> {
-    let invalid = module.skipped.iter().filter(|it| matches!(it.what, NotRead::Invalid { .. }));
+    let is_invalid = |it: &&Statement| matches!(it.kind, StatementKind::Invalid { .. });
+    let invalid = module.statements.iter().filter(is_invalid);
     let second = invalid.filter_map(|it| {
         it.text.split(|c: char| !(c.is_alphanumeric() || c == '_')).nth(1).map(str::to_lowercase)
     });

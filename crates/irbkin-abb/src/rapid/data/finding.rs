@@ -7,7 +7,8 @@ use core::fmt;
 use core::ops::Range;
 
 use super::moves::Move;
-use super::unread::{Reason, Skipped, Unresolved};
+use super::statement::Statement;
+use super::unread::{Reason, Unresolved};
 use super::value::DataType;
 use crate::rapid::text::place::excerpt;
 use irbkin::Explanation;
@@ -327,10 +328,10 @@ impl Finding {
         self.placed((step.line, step.column), routine, move_index, &what)
     }
 
-    /// At something that is not read, before a move.
-    pub(crate) fn at_skipped(self, skipped: &Skipped, move_index: usize) -> Self {
-        let Skipped { line, column, routine, text, .. } = skipped;
-        self.placed((*line, *column), routine.clone(), move_index, text)
+    /// At a statement before a move.
+    pub(crate) fn at_statement(self, statement: &Statement, move_index: usize) -> Self {
+        let Statement { line, column, routine, text, .. } = statement;
+        self.placed((*line, *column), routine.as_deref().map(String::from), move_index, text)
     }
 
     /// At a place of the text, with the instruction before the words.

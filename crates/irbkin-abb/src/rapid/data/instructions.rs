@@ -1,7 +1,7 @@
 //! The effects of instructions on moves.
 
 /// The effect of an instruction on the moves of a program.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effect {
     Nothing,
     /// It moves the robot and is not read. So does every instruction whose name continues with
@@ -26,7 +26,7 @@ pub(crate) enum Effect {
 }
 
 /// What shifts the moves after an instruction.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shift {
     /// What lies between two positions.
     Between,

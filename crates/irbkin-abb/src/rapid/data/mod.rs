@@ -1,6 +1,7 @@
 //! The content of a module: types, records, values, data, moves, and reasons why something is not
 //! read.
 
+pub(crate) mod expression;
 pub(crate) mod finding;
 pub(crate) mod fit;
 pub(crate) mod instructions;
@@ -12,6 +13,7 @@ mod options;
 pub(crate) mod own_types;
 pub(crate) mod records;
 pub(crate) mod settings;
+pub(crate) mod statement;
 pub(crate) mod table;
 pub(crate) mod types;
 pub(crate) mod unread;

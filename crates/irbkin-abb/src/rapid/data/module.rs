@@ -7,8 +7,7 @@ use core::ops::Range;
 
 use super::moves::Move;
 use super::own_types::OwnTypes;
-use super::settings::Setting;
-use super::unread::Skipped;
+use super::statement::{Statement, StatementKind};
 use super::value::{DataType, Value};
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::Called;
@@ -172,11 +171,10 @@ pub struct Module {
     pub(crate) routines: Vec<Routine>,
     pub(crate) data: Vec<Datum>,
     pub(crate) moves: Vec<Move>,
-    pub(crate) skipped: Vec<Skipped>,
+    /// In the order of the text, with the parts that are not read.
+    pub(crate) statements: Vec<Statement>,
     /// The faults of the text that it was read from.
     pub(crate) faults: Vec<RapidFault>,
-    /// The instructions that set how moves are made.
-    pub(crate) settings: Vec<Setting>,
     /// Data of the module itself by their names in lower case.
     pub(crate) index: BTreeMap<String, usize>,
     /// Names in lower case that the module assigns: of its own data, with those that refer to them,
@@ -230,8 +228,11 @@ impl Module {
 
     /// The parts that were not read, in the order of the text.
     #[must_use]
-    pub fn skipped(&self) -> &[Skipped] {
-        &self.skipped
+    pub fn skipped(&self) -> Vec<&Statement> {
+        let is_read = |kind: &StatementKind| {
+            matches!(kind, StatementKind::Move(_) | StatementKind::Setting(_))
+        };
+        self.statements.iter().filter(|it| !is_read(&it.kind)).collect()
     }
 
     /// The faults of the text, in its order: none, unless the module was read
@@ -273,11 +274,8 @@ impl Module {
         for routine in &mut self.routines {
             (routine.line, routine.column) = (0, 0);
         }
-        for skipped in &mut self.skipped {
-            (skipped.line, skipped.column, skipped.start) = (0, 0, 0);
-        }
-        for setting in &mut self.settings {
-            (setting.line, setting.column) = (0, 0);
+        for statement in &mut self.statements {
+            (statement.line, statement.column, statement.start) = (0, 0, 0);
         }
         for fault in &mut self.faults {
             (fault.line, fault.column) = (0, 0);

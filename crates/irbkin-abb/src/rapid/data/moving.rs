@@ -41,8 +41,6 @@ pub(crate) struct MoveInstruction {
     /// How it moves.
     pub(crate) way: MoveKind,
     pub(super) layout: Layout,
-    /// As its row in the table has them.
-    pub(crate) arguments: &'static str,
 }
 
 /// The places of the required arguments of a move among them, ascending.

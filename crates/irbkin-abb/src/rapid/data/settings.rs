@@ -1,7 +1,5 @@
 //! How moves are made: what ConfL, ConfJ, SingArea and CirPathMode set.
 
-use alloc::string::String;
-
 use crate::rapid::text::words::words;
 
 /// Settings of the instructions before a move in its routine. The default is set at the beginning
@@ -87,13 +85,4 @@ impl MotionSettings {
             _ => false,
         }
     }
-}
-
-/// An instruction that sets how the moves after it are made, as it is written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Setting {
-    pub(crate) line: usize,
-    pub(crate) column: usize,
-    pub(crate) routine: Option<String>,
-    pub(crate) text: String,
 }

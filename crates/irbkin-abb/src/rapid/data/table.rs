@@ -37,7 +37,7 @@ const fn function(name: &'static str, arguments: &'static str) -> Entry {
 }
 
 const fn goes(name: &'static str, way: MoveKind, layout: Layout, arguments: &'static str) -> Entry {
-    let movement = Some(MoveInstruction { name, way, layout, arguments });
+    let movement = Some(MoveInstruction { name, way, layout });
     Entry { movement, ..call(name, arguments) }
 }
 

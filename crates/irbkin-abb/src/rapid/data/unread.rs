@@ -1,5 +1,4 @@
-//! Reasons why values are unknown, and skipped parts of a text. Names and words
-//! are as they are written.
+//! Reasons why values are unknown. Names and words are as they are written.
 
 use core::fmt;
 
@@ -113,66 +112,6 @@ impl Reason {
             && let AssignedBy::Line(line) = by
         {
             *line = 0;
-        }
-    }
-}
-
-/// A part of the text that is not read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Skipped {
-    /// Line, from 1.
-    pub line: usize,
-    /// Column, from 1, in characters.
-    pub column: usize,
-    /// The routine that contains it; `None` for the module.
-    pub routine: Option<String>,
-    /// Its kind and, for a datum, why it is not read.
-    pub what: NotRead,
-    /// The text, which is written back as it is.
-    pub text: String,
-    /// The byte of the module's text at which it begins.
-    pub(crate) start: usize,
-}
-
-/// The kind of a part of the text that is not read.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum NotRead {
-    /// A statement, by its first word, with a placeholder in it.
-    #[error("{statement} is not finished")]
-    Unfinished { statement: String },
-    /// A statement, by its first word, that is invalid: of a module that is read in spite of its
-    /// faults.
-    #[error("{statement} is invalid: {fault}")]
-    Invalid { statement: String, fault: String },
-    /// A datum of a type that is read, whose value is unknown.
-    #[error("{name}: {reason}")]
-    Datum { name: String, reason: Reason },
-    #[error("{name}: type {type_name} is not read")]
-    DatumOfType { name: String, type_name: String },
-    #[error("RECORD {name} is not read")]
-    Record { name: String },
-    #[error("ALIAS {name} is not read")]
-    Alias { name: String },
-    /// A line that begins, divides or ends a branch, a loop or a handler, by its word in capitals.
-    #[error("{word} is not executed")]
-    Flow { word: String },
-    #[error("label {name} is not read")]
-    Label { name: String },
-    #[error("{name} is assigned a value, which is not followed")]
-    Assignment { name: String },
-    #[error("{name} moves the robot, but is not read")]
-    Motion { name: String },
-    /// Another instruction, or a call of a routine.
-    #[error("{name} is not an instruction that is read")]
-    Instruction { name: String },
-}
-
-impl NotRead {
-    /// The word of a branch, a loop or a handler, or the name of an instruction, as it is written.
-    pub(crate) fn word(&self) -> &str {
-        match self {
-            Self::Flow { word: name } | Self::Motion { name } | Self::Instruction { name } => name,
-            _ => "",
         }
     }
 }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::evaluate::{Evaluator, Stop, positive_whole};
-use super::tree::{Expression, Form};
+use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
@@ -122,7 +122,7 @@ impl Elements<'_, '_, '_> {
             Form::Text(_) => no_array("a string"),
             Form::Bool(_) => no_array("a truth value"),
             Form::Name(name) => copied(name),
-            Form::Reference(reference) => copied(reference.name),
+            Form::Reference(reference) => copied(&reference.name),
             _ => Err(Reason::NoAggregate.into()),
         }
     }

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::names::{At, Names};
-use super::tree::{Expression, Form, written};
+use crate::rapid::data::expression::{Expression, Form, written};
 use crate::rapid::data::types::{Atom, Atoms, Record, Shape, Type};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
@@ -140,7 +140,7 @@ impl Evaluator<'_, '_> {
                 self.fill_reference(expression, (name, &[], &[]), place, atoms)
             }
             (Form::Reference(it), _) => {
-                let whole = (it.name, it.indices.as_slice(), it.components.as_slice());
+                let whole = (&*it.name, it.indices.as_slice(), it.components.as_slice());
                 self.fill_reference(expression, whole, place, atoms)
             }
             (Form::Call(call), _) => self.fill_call(expression, call, place, atoms),

@@ -13,7 +13,7 @@ use super::geometry::{
     pose_inv, pose_mult, pose_vect, rel_tool,
 };
 use super::names::{Lookup, Question};
-use super::tree::{Call, Expression};
+use crate::rapid::data::expression::{Call, Expression};
 use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::{RobTarget, WobjData};
 use crate::rapid::data::table::Entry;
@@ -202,7 +202,7 @@ impl Evaluator<'_, '_> {
         place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
-        let function = match self.function(call.name) {
+        let function = match self.function(&call.name) {
             Ok(function) => function,
             Err(reason) => {
                 let value = self.names.returned(self.text, expression).ok_or(reason)?;
@@ -266,7 +266,7 @@ impl Evaluator<'_, '_> {
                 (Some(Some(of)), Some(value)) => self.atoms(value, of)?,
                 (Some(None), None) => Atoms::new(),
                 _ => {
-                    let (name, argument) = (call.name.to_string(), (*argument).to_string());
+                    let (name, argument) = (call.name.to_string(), argument.to_string());
                     return Err(Reason::FunctionArgument { name, argument }.into());
                 }
             };

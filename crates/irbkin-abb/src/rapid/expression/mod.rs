@@ -9,4 +9,3 @@ pub(crate) mod names;
 mod operators;
 pub(crate) mod reader;
 pub(crate) mod references;
-pub(crate) mod tree;

@@ -7,7 +7,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::tree::Expression;
+use crate::rapid::data::expression::Expression;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};

@@ -7,7 +7,7 @@ use alloc::string::String;
 
 use super::evaluate::{Component, Evaluator, Stop, whole};
 use super::geometry::{cross, difference, product, scaled, sum};
-use super::tree::{Expression, Form, Operator};
+use crate::rapid::data::expression::{Expression, Form, Operator};
 use crate::rapid::data::types::{Atom, Atoms, ORIENT, POS, Shape};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::text::fault::RapidFaultKind;

@@ -4,7 +4,9 @@ use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::tree::{Arguments, Call, Expression, Form, Operator, Reference, Relation};
+use crate::rapid::data::expression::{
+    Arguments, Call, Expression, Form, Name, Operator, Reference, Relation,
+};
 use crate::rapid::data::fit::misfit;
 use crate::rapid::data::table::Entry;
 use crate::rapid::data::unread::Reason;
@@ -123,7 +125,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         let form = match first.kind {
             TokenKind::Number(value) => Form::Number(value),
             TokenKind::Name if !is_reserved(self.tokens.text_of(first)) => {
-                Form::Name(self.tokens.text_of(first))
+                Form::Name(self.tokens.text_of(first).into())
             }
             _ => return Ok(None),
         };
@@ -275,7 +277,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             }
             TokenKind::Text => {
                 self.tokens.take()?;
-                Form::Text(self.tokens.text_of(token))
+                Form::Text(self.tokens.text_of(token).into())
             }
             TokenKind::Symbol(b'*') => {
                 self.tokens.take()?;
@@ -328,14 +330,15 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             self.tokens.take()?;
             return Ok(Form::Call(Box::new(self.call(token, next)?)));
         }
-        self.behind_name(name)
+        self.behind_name(token).map(|it| it.form)
     }
 
     /// A reference, of which the name is read.
-    pub(crate) fn behind_name(&mut self, name: &'a str) -> Result<Form<'a>, RapidFault> {
+    pub(crate) fn behind_name(&mut self, token: Token) -> Result<Expression<'a>, RapidFault> {
+        let name = self.tokens.text_of(token);
         let next = self.tokens.peek();
         if !next.is(b'{') && !next.is(b'.') {
-            return Ok(Form::Name(name));
+            return Ok(self.made(token.start, Form::Name(name.into())));
         }
         let indices = if next.is(b'{') {
             self.tokens.take()?;
@@ -344,7 +347,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             Vec::new()
         };
         let components = self.tokens.components()?;
-        Ok(Form::Reference(Box::new(Reference { name, indices, components })))
+        let reference = Reference { name: name.into(), indices, components };
+        Ok(self.made(token.start, Form::Reference(Box::new(reference))))
     }
 
     fn call(&mut self, token: Token, open: Token) -> Result<Call<'a>, RapidFault> {
@@ -353,7 +357,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         let arguments = self.arguments()?;
         self.close(open, b')')?;
         note(self.tokens, token, true, &arguments);
-        Ok(Call { name, arguments, components: self.tokens.components()? })
+        Ok(Call { name: name.into(), arguments, components: self.tokens.components()? })
     }
 
     /// The arguments of a function, an instruction or a call, up to what ends them.
@@ -387,8 +391,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     }
 
     /// `Name`, `Name:=value` or `Name?parameter`; the backslash is already read.
-    pub(crate) fn optional(&mut self) -> Result<(&'a str, Option<Expression<'a>>), RapidFault> {
-        let name = self.tokens.take_option_name()?;
+    pub(crate) fn optional(&mut self) -> Result<(Name<'a>, Option<Expression<'a>>), RapidFault> {
+        let name = self.tokens.take_option_name()?.into();
         // \Name?parameter passes on the caller's own argument, if there is one; the question mark
         // belongs to the value.
         let mark = self.tokens.peek();
@@ -418,7 +422,7 @@ pub(crate) fn note(
     let text = &tokens.text[name.clone()];
     let entry = if is_function { Entry::function(text) } else { Entry::instruction(text) };
     let required = arguments.required.len();
-    let given = arguments.optional.iter().map(|(name, value)| (*name, value.is_some()));
+    let given = arguments.optional.iter().map(|(name, value)| (&**name, value.is_some()));
     let of_entry = |it: &Entry| misfit((it.name, it.arguments), required, given.clone());
     let wrong = entry.and_then(of_entry);
     if entry.is_none() || wrong.is_some() {

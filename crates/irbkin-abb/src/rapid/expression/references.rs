@@ -7,7 +7,7 @@ use core::ops::Range;
 
 use super::evaluate::{Component, Evaluator, Stop, positive_whole};
 use super::names::Lookup;
-use super::tree::{Expression, Form, written};
+use crate::rapid::data::expression::{Expression, Form, Name, written};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::own_types::DEEPEST_TYPE;
 use crate::rapid::data::types::{Atom, Atoms, LOADDATA, Shape, TOOLDATA, Type};
@@ -20,7 +20,7 @@ impl Evaluator<'_, '_> {
     pub(super) fn fill_reference(
         &self,
         expression: &Expression<'_>,
-        (name, indices, components): (&str, &[Expression<'_>], &[&str]),
+        (name, indices, components): (&str, &[Expression<'_>], &[Name<'_>]),
         place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
@@ -34,7 +34,7 @@ impl Evaluator<'_, '_> {
         &self,
         expression: &Expression<'_>,
         value: &Value,
-        components: &[&str],
+        components: &[Name<'_>],
         place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
@@ -65,8 +65,8 @@ impl Evaluator<'_, '_> {
     fn whole_name<'n>(
         &self,
         name: &'n str,
-        components: &'n [&'n str],
-    ) -> (Cow<'n, str>, &'n [&'n str]) {
+        components: &'n [Name<'n>],
+    ) -> (Name<'n>, &'n [Name<'n>]) {
         let own = (Cow::Borrowed(name), components);
         if components.is_empty()
             || !matches!(
@@ -92,12 +92,12 @@ impl Evaluator<'_, '_> {
         &self,
         expression: &Expression<'_>,
         mut of: &'static Type,
-        components: &[&str],
+        components: &[Name<'_>],
     ) -> Result<(&'static Type, usize), Stop> {
         let mut begin = 0;
         for component in components {
             let (part, before) = of.component(component).ok_or_else(|| {
-                let (text, component) = (written(self.text, expression), (*component).to_string());
+                let (text, component) = (written(self.text, expression), component.to_string());
                 let of = of.name;
                 self.fault(expression, RapidFaultKind::NoSuchComponent { text, of, component })
             })?;
@@ -112,7 +112,7 @@ impl Evaluator<'_, '_> {
         expression: &Expression<'_>,
         name: &str,
         indices: &[Expression<'_>],
-        components: &[&str],
+        components: &[Name<'_>],
     ) -> Result<Cow<'_, Value>, Stop> {
         let unknown = |why| Err(Stop::Unknown(Reason::Reference { name: name.to_string(), why }));
         let count = |wanted| {
@@ -156,12 +156,12 @@ impl Evaluator<'_, '_> {
             Form::Text(_) => return Some("string".to_string()),
             Form::Bool(_) => return Some("bool".to_string()),
             Form::Call(call) => {
-                let result = self.function(call.name).ok()?.result;
+                let result = self.function(&call.name).ok()?.result;
                 let (of, _) = self.part(expression, result, &call.components).ok()?;
                 return Some(of.name.to_string());
             }
-            Form::Name(name) => (*name, &[][..]),
-            Form::Reference(reference) => (reference.name, reference.components.as_slice()),
+            Form::Name(name) => (name, &[][..]),
+            Form::Reference(reference) => (&reference.name, reference.components.as_slice()),
             _ => return None,
         };
         let (name, components) = self.whole_name(name, components);
@@ -185,7 +185,7 @@ impl Evaluator<'_, '_> {
         &self,
         expression: &Expression<'_>,
         content: &Content,
-        components: &[&str],
+        components: &[Name<'_>],
     ) -> Result<Range<usize>, Stop> {
         let value = match content {
             Content::Single(value) => Some(value),

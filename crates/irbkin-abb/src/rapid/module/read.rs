@@ -4,11 +4,13 @@ use alloc::borrow::Cow;
 use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use crate::Error;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, RoutineKind};
 use crate::rapid::data::moves::Move;
+use crate::rapid::data::statement::{Statement, StatementKind};
 use crate::rapid::data::types::are_finite;
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::resolve::resolved;
@@ -160,21 +162,30 @@ impl Module {
         check_names(name.as_deref(), &data, &moves)?;
         data.iter().try_for_each(check_numbers)?;
         let routines = routines(&data, &moves);
-        let module = Self { name, routines, data, moves, ..Self::default() }.without_positions();
+        let statements = moves.iter().enumerate().map(of_move).collect();
+        let module = Self { name, routines, data, moves, statements, ..Self::default() };
+        let module = module.without_positions();
         let read = parse(&module.to_string(), context)?;
         let texts =
             |module: &Module| module.moves.iter().map(ToString::to_string).collect::<Vec<_>>();
         let says_the_same = read.clone().without_positions().data.len() == module.data.len()
             && texts(&read) == texts(&module);
-        if says_the_same && read.skipped.is_empty() {
+        if says_the_same && read.skipped().is_empty() {
             return Ok(read);
         }
-        let what = read.skipped.first().map_or_else(
-            || "datum or move for each that was given".to_string(),
-            |it| it.what.to_string(),
-        );
+        let what = read
+            .skipped()
+            .first()
+            .map_or_else(|| "datum or move for each that was given".to_string(), |it| it.what());
         Err(nowhere(RapidFaultKind::NoSuchValue { missing: Missing::Module { what } }))
     }
+}
+
+/// The statement of a move, by its index.
+fn of_move((index, step): (usize, &Move)) -> Statement {
+    let routine = step.routine.as_deref().map(Arc::from);
+    let (kind, text) = (StatementKind::Move(index), String::new());
+    Statement { line: 0, column: 0, routine, kind, text, start: 0 }
 }
 
 /// An error of data that are not in a text.

@@ -11,9 +11,8 @@ use super::read::nowhere;
 use crate::Error;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::settings::Setting;
+use crate::rapid::data::statement::{Statement, StatementKind};
 use crate::rapid::data::types::are_finite;
-use crate::rapid::data::unread::Skipped;
 use crate::rapid::data::value::Value;
 use crate::rapid::text::fault::{Missing, RapidFault, RapidFaultKind};
 
@@ -143,9 +142,8 @@ impl fmt::Display for Move {
 enum Item<'m> {
     /// Perhaps with the expression that it is written with.
     Datum(&'m Datum, Option<&'m str>),
-    Move(&'m Move),
-    Skipped(&'m Skipped),
-    Setting(&'m Setting),
+    /// With its move, if it is one.
+    Statement(&'m Statement, Option<&'m Move>),
     Routine(&'m Routine),
 }
 
@@ -155,9 +153,7 @@ impl Item<'_> {
     fn key(&self, in_routine: bool) -> (bool, usize, usize) {
         let (first, line, column) = match self {
             Self::Datum(datum, _) => (in_routine, datum.line, datum.column),
-            Self::Move(step) => (false, step.line, step.column),
-            Self::Skipped(skipped) => (false, skipped.line, skipped.column),
-            Self::Setting(setting) => (false, setting.line, setting.column),
+            Self::Statement(statement, _) => (false, statement.line, statement.column),
             Self::Routine(routine) => (false, routine.line, routine.column),
         };
         (!first, if line == 0 { usize::MAX } else { line }, column)
@@ -167,21 +163,22 @@ impl Item<'_> {
 /// The items of each routine, by its name in lower case; the module has the empty name.
 fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
     let mut items: BTreeMap<String, Vec<Item<'_>>> = BTreeMap::new();
-    let mut add = |routine: Option<&String>, item| {
-        items
-            .entry(routine.map(|routine| routine.to_lowercase()).unwrap_or_default())
-            .or_default()
-            .push(item);
+    let mut add = |routine: Option<&str>, item| {
+        items.entry(routine.map(str::to_lowercase).unwrap_or_default()).or_default().push(item);
     };
     for (i, datum) in module.data.iter().enumerate() {
         add(
-            datum.routine.as_ref(),
+            datum.routine.as_deref(),
             Item::Datum(datum, module.expressions.get(&i).map(String::as_str)),
         );
     }
-    module.skipped.iter().for_each(|skipped| add(skipped.routine.as_ref(), Item::Skipped(skipped)));
-    module.settings.iter().for_each(|it| add(it.routine.as_ref(), Item::Setting(it)));
-    module.moves.iter().for_each(|step| add(step.routine.as_ref(), Item::Move(step)));
+    for statement in &module.statements {
+        let step = match statement.kind {
+            StatementKind::Move(index) => module.moves.get(index),
+            _ => None,
+        };
+        add(statement.routine.as_deref(), Item::Statement(statement, step));
+    }
     module.routines.iter().for_each(|routine| add(None, Item::Routine(routine)));
     for (name, items) in &mut items {
         items.sort_by_key(|item| item.key(!name.is_empty()));
@@ -224,9 +221,8 @@ fn write_item(f: &mut fmt::Formatter<'_>, margin: &str, item: &Item<'_>) -> fmt:
             datum.write(f, *expression)?;
             writeln!(f)
         }
-        Item::Move(step) => writeln!(f, "{margin}{step}"),
-        Item::Skipped(skipped) => writeln!(f, "{margin}{}", skipped.text),
-        Item::Setting(setting) => writeln!(f, "{margin}{}", setting.text),
+        Item::Statement(_, Some(step)) => writeln!(f, "{margin}{step}"),
+        Item::Statement(statement, None) => writeln!(f, "{margin}{}", statement.text),
         Item::Routine(_) => Ok(()),
     }
 }

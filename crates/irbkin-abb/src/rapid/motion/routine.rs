@@ -239,9 +239,9 @@ fn goals<'m, const N: usize>(
                 }
                 goals.push(goal);
             }
-            Step::NotFollowed { module, skipped, words } => {
+            Step::NotFollowed { module, statement, words } => {
                 let finding = Finding::new(Code::NotFollowed, words.clone()).in_module(*module);
-                unfollowed.push(finding.at_skipped(skipped, move_index));
+                unfollowed.push(finding.at_statement(statement, move_index));
                 from_unknown = true;
             }
         }

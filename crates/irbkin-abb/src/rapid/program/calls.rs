@@ -8,18 +8,17 @@ use alloc::vec::Vec;
 use core::mem;
 use core::ops::Range;
 
-use super::arguments::referred;
 use super::cases::Known;
 use super::effects::{Acts, MOST_CALLED};
 use super::frame::{Frame, Site};
 use super::state::{Local, Locals, MOST_KNOWN};
-use super::statement::Instruction;
 use super::values::Calls;
 use super::walker::Walk;
 use super::whole::Program;
+use crate::rapid::data::expression::{Arguments, Call, Expression, Name};
 use crate::rapid::data::module::{Content, Parameter, Storage};
-use crate::rapid::data::unread::{Reason, Skipped, Unresolved};
-use crate::rapid::expression::tree::{Arguments, Call, Expression};
+use crate::rapid::data::statement::{Instruction, Statement};
+use crate::rapid::data::unread::{Reason, Unresolved};
 
 /// The name of what a function returns: no name of RAPID.
 const RETURNED: &str = "RETURN";
@@ -113,7 +112,7 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Follow an instruction that may be a call.
-    pub(super) fn call(&mut self, skipped: &'m Skipped, instruction: &Instruction<'m>) {
+    pub(super) fn call(&mut self, skipped: &'m Statement, instruction: &Instruction) {
         let Some(name) = instruction.name.clone() else {
             // It may assign any datum.
             self.state.forget_globals(None);
@@ -136,28 +135,24 @@ impl<'m> Walk<'_, 'm> {
         } else {
             None
         };
-        let bound = match (why, &instruction.arguments) {
-            (None, Some(arguments)) => {
-                self.bound((&skipped.text, skipped.start), parameters, arguments)
+        if let Some(words) = why {
+            let assigned = program.effects.assigned_by(&[(home, name)], MOST_CALLED);
+            self.state.forget_globals(assigned.as_ref());
+            self.state.place = Err("a call before it is not followed");
+            if acts.moves {
+                self.not_followed(skipped, words);
             }
-            (why, _) => {
-                let assigned = program.effects.assigned_by(&[(home, name)], MOST_CALLED);
-                self.state.forget_globals(assigned.as_ref());
-                self.state.place = Err("a call before it is not followed");
-                if acts.moves {
-                    let words = why.unwrap_or_else(|| "its arguments are not read".to_string());
-                    self.not_followed(skipped, words);
-                }
-                return;
-            }
-        };
+            return;
+        }
+        let written = (skipped.text.as_str(), skipped.start);
+        let bound = self.bound(written, parameters, &instruction.arguments);
         self.enter(skipped, (home, name), bound, parameters);
     }
 
     /// Follow a routine with its arguments.
     fn enter(
         &mut self,
-        skipped: &Skipped,
+        skipped: &Statement,
         (home, name): (usize, String),
         bound: Bound,
         parameters: &[Parameter],
@@ -167,8 +162,8 @@ impl<'m> Walk<'_, 'm> {
             module: self.frame.module,
             line: skipped.line,
             column: skipped.column,
-            routine: skipped.routine.clone(),
-            called: skipped.what.word().to_string(),
+            routine: skipped.routine.as_deref().map(String::from),
+            called: skipped.kind.word().to_string(),
         };
         let site = self.frame.site.clone().or_else(|| Some(own_site()));
         let next = self.chains.len() + 1;
@@ -205,10 +200,9 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Keep what a function returns.
-    pub(super) fn give_back(&mut self, skipped: &Skipped, instruction: &Instruction<'_>) {
+    pub(super) fn give_back(&mut self, skipped: &Statement, instruction: &Instruction) {
         let Some(data_type) = self.frame.result else { return };
-        let value = instruction.arguments.as_ref().and_then(|it| it.required.first());
-        let Some(value) = value else { return };
+        let Some(value) = instruction.arguments.required.first() else { return };
         let ways = self.in_each_case(|it| it.value(&skipped.text, value, data_type).ok());
         let written = skipped.text.get(value.start..value.end).unwrap_or_default();
         let words = format!("{} is {written}", self.frame.routine);
@@ -246,7 +240,8 @@ impl<'m> Walk<'_, 'm> {
         let mut required = arguments.required.iter();
         for parameter in parameters {
             let argument = if parameter.is_optional {
-                let is_own = |(name, _): &&(&str, _)| name.eq_ignore_ascii_case(&parameter.name);
+                let is_own =
+                    |(name, _): &&(Name<'_>, _)| name.eq_ignore_ascii_case(&parameter.name);
                 arguments.optional.iter().find(is_own).map(|(_, value)| value.as_ref())
             } else {
                 required.next().map(Some)
@@ -290,7 +285,7 @@ impl<'m> Walk<'_, 'm> {
             );
             return bound.give(parameter, content);
         }
-        let name = referred(value).filter(|(_, components)| components.is_empty());
+        let name = value.referred().filter(|(_, components)| components.is_empty());
         let ways = self.in_each_case(|scope| match scope.whole(value) {
             Some(content) => Ok(content),
             None => match scope.value(whole, value, data_type) {

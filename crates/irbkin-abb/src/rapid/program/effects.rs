@@ -1,20 +1,21 @@
 //! Effects of routines, with the ones that they call: whether they move the robot or set how it
 //! moves, and the data that they assign.
 
+use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::cell::Cell;
 use core::ops::Range;
 
-use super::arguments::referred;
 use super::index::{DatumId, Index};
-use super::statement::{Action, Instruction};
 use super::tree::{Block, Node};
+use crate::rapid::data::expression::Expression;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Parameter;
 use crate::rapid::data::moves::Move;
+use crate::rapid::data::statement::{Instruction, StatementKind};
 use crate::rapid::data::table::Entry;
 use crate::rapid::data::value::DataType;
 use crate::rapid::resolve::resolver::atoms_of;
@@ -68,7 +69,8 @@ impl Assigned {
     /// Whether an assignment changes some of these atoms of a datum of a type.
     pub(super) fn meets(&self, data_type: DataType, atoms: &Range<usize>) -> bool {
         self.components.iter().any(|it| {
-            let components: Vec<&str> = it.split('.').filter(|part| !part.is_empty()).collect();
+            let components = it.split('.').filter(|part| !part.is_empty());
+            let components: Vec<_> = components.map(Cow::Borrowed).collect();
             let own = atoms_of(data_type.described(), &components);
             own.start < atoms.end && atoms.start < own.end
         })
@@ -283,7 +285,7 @@ pub(super) fn written_by(step: &Move) -> Option<String> {
 }
 
 /// Whether the robot may be moved by hand behind an instruction, or by it: of an add-in, or unknown.
-pub(super) fn releases(names: &Index<'_>, module: usize, instruction: &Instruction<'_>) -> bool {
+pub(super) fn releases(names: &Index<'_>, module: usize, instruction: &Instruction) -> bool {
     let Some(name) = &instruction.name else { return true };
     let is_known = names.procedure(module, name).is_some() || Entry::instruction(name).is_some();
     instruction.effect == Effect::Stops || name == "setleadthrough" || !is_known
@@ -323,7 +325,7 @@ impl<'e, 'm> Reader<'e, 'm> {
                         self.assign(&name, String::new(), step.line);
                     }
                 }
-                Node::Other(skipped, action) => self.statement(skipped.line, action),
+                Node::Other(statement) => self.statement(statement.line, &statement.kind),
                 Node::Branches { parts, .. } => {
                     for part in parts {
                         self.block(&part.block);
@@ -334,14 +336,16 @@ impl<'e, 'm> Reader<'e, 'm> {
         }
     }
 
-    fn statement(&mut self, line: usize, action: &Action<'_>) {
-        match action {
-            Action::Nothing | Action::Label => {}
-            Action::Unread => self.acts.moves = true,
-            Action::Assign { to: (name, components), .. } => {
+    fn statement(&mut self, line: usize, kind: &StatementKind) {
+        match kind {
+            StatementKind::Unfinished { .. } | StatementKind::Invalid { .. } => {
+                self.acts.moves = true;
+            }
+            StatementKind::Assignment(assignment) => {
+                let (name, components) = &assignment.to;
                 self.assign(name, components.clone(), line);
             }
-            Action::Instruct(instruction) => {
+            StatementKind::Instruction(instruction) => {
                 self.acts.moves |= matches!(
                     instruction.effect,
                     Effect::Moves | Effect::Displaces(_) | Effect::Offsets(_) | Effect::Sets
@@ -352,6 +356,7 @@ impl<'e, 'm> Reader<'e, 'm> {
                 }
                 self.call(instruction, line);
             }
+            _ => {}
         }
     }
 
@@ -369,16 +374,16 @@ impl<'e, 'm> Reader<'e, 'm> {
         }
     }
 
-    fn call(&mut self, instruction: &Instruction<'_>, line: usize) {
+    fn call(&mut self, instruction: &Instruction, line: usize) {
         let Some(name) = &instruction.name else {
             // A call by a name that is calculated may do anything.
             self.acts.moves = true;
             return;
         };
         let Some(home) = self.names.procedure(self.module, name) else { return };
-        let Some(arguments) = &instruction.arguments else { return };
+        let arguments = &instruction.arguments;
         let to = (home, name.clone());
-        let name_of = |it| referred(it).map(|(name, _)| name);
+        let name_of = |it: &Expression<'_>| it.referred().map(|(name, _)| name);
         let required = arguments.required.iter().map(name_of).collect();
         let optional = arguments.optional.iter();
         let optional = optional

@@ -7,7 +7,8 @@ use alloc::vec::Vec;
 use super::cases::{Known, saved_value};
 use super::tree::{Body, bodies};
 use crate::rapid::data::module::{Datum, Module, Parameter, Routine, RoutineKind, Scope, Storage};
-use crate::rapid::data::unread::{NotRead, Unresolved};
+use crate::rapid::data::statement::StatementKind;
+use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::DataType;
 
 /// A datum: its module and its index there.
@@ -207,9 +208,9 @@ fn returned(routine: &Routine) -> Option<DataType> {
 
 /// The names in lower case of data that are not read, with the reasons.
 fn unread(module: &Module) -> BTreeMap<String, Unresolved> {
-    let names = module.skipped.iter().filter_map(|skipped| match &skipped.what {
-        NotRead::Datum { name, .. } => Some((name.to_lowercase(), Unresolved::ValueNotKnown)),
-        NotRead::DatumOfType { name, type_name } => {
+    let names = module.statements.iter().filter_map(|statement| match &statement.kind {
+        StatementKind::Datum { name, .. } => Some((name.to_lowercase(), Unresolved::ValueNotKnown)),
+        StatementKind::DatumOfType { name, type_name } => {
             let type_name = type_name.clone();
             Some((name.to_lowercase(), Unresolved::OtherType { type_name }))
         }

@@ -6,12 +6,12 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::state::{Here, Local};
-use super::statement::{Action, Condition, Counter};
 use super::tree::{Block, Node, size};
 use super::values::Calls as _;
 use super::walker::Walk;
 use crate::rapid::data::instructions::Effect;
-use crate::rapid::data::unread::{Skipped, Unresolved};
+use crate::rapid::data::statement::{Condition, Counter, Statement, StatementKind};
+use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::Value;
 
 /// Most passes of a loop that are followed.
@@ -21,15 +21,15 @@ impl<'m> Walk<'_, 'm> {
     /// A loop: each pass where its bounds are known and it refers to its variable, else the first.
     pub(super) fn repeat(
         &mut self,
-        head: &'m Skipped,
-        (counter, is_counted): (&Counter<'_>, bool),
+        head: &'m Statement,
+        (counter, is_counted): (&Counter, bool),
         body: &Block<'m>,
     ) {
         let name = &counter.variable;
         let before = self.state.locals.get(name).cloned();
-        let bounds = counter.bounds.each_ref();
-        let bounds = bounds.map(|bound| self.number(&head.text, bound.as_ref()?));
-        let passes = values_of(bounds);
+        let bounds = counter.bounds.each_ref().map(|bound| self.number(&head.text, bound));
+        let step = counter.step.as_deref().map(|step| self.number(&head.text, step));
+        let passes = values_of(bounds, step.flatten());
         if !passes.is_empty() && self.affords(passes.len(), body) && (self.is_one || is_counted) {
             let depth = self.passes.len();
             for value in passes {
@@ -66,14 +66,14 @@ impl<'m> Walk<'_, 'm> {
     /// in which it may.
     pub(super) fn repeat_while(
         &mut self,
-        head: &'m Skipped,
-        condition: &Condition<'m>,
+        head: &'m Statement,
+        condition: &Condition,
         body: &Block<'m>,
     ) {
-        if let Condition::Compared { .. } = condition {
+        if let Condition::Compared(..) = condition {
             let depth = self.passes.len();
             for pass in 1..=MOST_PASSES {
-                match self.holds((head, None), condition) {
+                match self.holds(None, (&head.text, condition)) {
                     Some(true) if self.affords(1, body) => {}
                     Some(false) => return,
                     _ => break,
@@ -103,9 +103,9 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// The first pass of a loop whose passes are not known.
-    fn repeat_first(&mut self, head: &'m Skipped, body: &Block<'m>) {
+    fn repeat_first(&mut self, head: &'m Statement, body: &Block<'m>) {
         if self.is_one && self.acts(body) {
-            self.decides(head.line, head.what.word());
+            self.decides(head.line, head.kind.word());
         }
         self.forget(body);
         let entry = self.state.clone();
@@ -120,14 +120,17 @@ fn jumps(block: &Block<'_>) -> bool {
     block.iter().any(|node| match node {
         Node::Branches { parts, .. } => parts.iter().any(|part| jumps(&part.block)),
         Node::Loop { body, .. } => jumps(body),
-        Node::Other(_, Action::Instruct(instruction)) => instruction.effect == Effect::Jumps,
+        Node::Other(statement) => match &statement.kind {
+            StatementKind::Instruction(it) => it.effect == Effect::Jumps,
+            _ => false,
+        },
         _ => false,
     })
 }
 
 /// The values of a loop between bounds: from, to and step.
-fn values_of(bounds: [Option<f64>; 3]) -> Vec<f64> {
-    let [Some(from), Some(to), step] = bounds else { return Vec::new() };
+fn values_of(bounds: [Option<f64>; 2], step: Option<f64>) -> Vec<f64> {
+    let [Some(from), Some(to)] = bounds else { return Vec::new() };
     let step = step.unwrap_or(if to < from { -1.0 } else { 1.0 });
     let mut values = Vec::new();
     let mut value = from;

@@ -5,7 +5,6 @@
 //! what is known before it, and behind it each datum has one of the values that the parts give it,
 //! in a case. A value that is not determined by the text stays unknown, with the reason.
 
-pub(super) mod arguments;
 mod calls;
 mod cases;
 mod effects;
@@ -14,7 +13,6 @@ mod index;
 mod loops;
 mod moves;
 mod state;
-mod statement;
 mod tree;
 mod values;
 pub(super) mod walk;

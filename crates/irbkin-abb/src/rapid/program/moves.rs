@@ -5,19 +5,19 @@ use alloc::format;
 use alloc::rc::Rc;
 
 use super::state::{Displacement, Offsets, Place, State};
-use super::statement::Instruction;
 use super::values::{Scope, argument};
 use crate::Error;
 use crate::rapid::calc::frames::{pose_in, rapid_pose};
 use crate::rapid::calc::target::target_pose;
 use crate::rapid::calc::units::MOST_DEGREES;
+use crate::rapid::data::expression::Expression;
 use crate::rapid::data::instructions::Shift;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::{RapidPose, RobTarget, ToolData, WobjData};
+use crate::rapid::data::statement::{Instruction, Statement};
 use crate::rapid::data::types::Record;
-use crate::rapid::data::unread::{AssignedBy, Reason, Skipped, Unresolved};
+use crate::rapid::data::unread::{AssignedBy, Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
-use crate::rapid::expression::tree::Expression;
 use irbkin::Pose;
 
 impl Scope<'_, '_> {
@@ -155,8 +155,8 @@ impl Scope<'_, '_> {
     /// The displacement of targets behind an instruction.
     pub(super) fn displacement(
         &self,
-        skipped: &Skipped,
-        instruction: &Instruction<'_>,
+        skipped: &Statement,
+        instruction: &Instruction,
         shift: Shift,
     ) -> Displacement {
         let pose = match shift {
@@ -173,14 +173,14 @@ impl Scope<'_, '_> {
     /// The offsets of external axes behind an instruction.
     pub(super) fn offsets(
         &self,
-        skipped: &Skipped,
-        instruction: &Instruction<'_>,
+        skipped: &Statement,
+        instruction: &Instruction,
         shift: Shift,
     ) -> Offsets {
         match shift {
             Shift::Off => Ok([0.0; 6]),
             Shift::Between => {
-                let arguments = instruction.arguments.as_ref().ok_or(skipped.line)?;
+                let arguments = &instruction.arguments;
                 let from = self.first(skipped, instruction, DataType::RobTarget);
                 match (from, self.record::<RobTarget>("CRobT()")) {
                     (Some(Value::RobTarget(from)), Ok(to)) if arguments.optional.is_empty() => {
@@ -199,18 +199,18 @@ impl Scope<'_, '_> {
     /// The value of the first argument.
     fn first(
         &self,
-        skipped: &Skipped,
-        instruction: &Instruction<'_>,
+        skipped: &Statement,
+        instruction: &Instruction,
         data_type: DataType,
     ) -> Option<Value> {
-        let argument = instruction.arguments.as_ref()?.required.first()?;
+        let argument = instruction.arguments.required.first()?;
         self.value(&skipped.text, argument, data_type).ok()
     }
 
     /// The displacement of PDispOn from a programmed position to the one that is executed, which is
     /// where the robot is unless `\ExeP` gives it.
-    fn between(&self, skipped: &Skipped, instruction: &Instruction<'_>) -> Option<RapidPose> {
-        let arguments = instruction.arguments.as_ref()?;
+    fn between(&self, skipped: &Statement, instruction: &Instruction) -> Option<RapidPose> {
+        let arguments = &instruction.arguments;
         let has =
             |name: &str| arguments.optional.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
         let text = |it: &Expression<'_>| skipped.text.get(it.start..it.end);

@@ -5,13 +5,11 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::mem;
 
-use super::statement::{Action, Condition, Counter, depends_on, tested};
+use crate::rapid::data::expression::Expression;
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::settings::Setting;
-use crate::rapid::data::unread::{NotRead, Skipped};
-use crate::rapid::expression::tree::Expression;
-use crate::rapid::text::words::{ends_with, words_of};
+use crate::rapid::data::statement::{Condition, Counter, Flow, Setting, Statement, StatementKind};
+use crate::rapid::text::words::words_of;
 
 /// Statements in the order of the text.
 pub(super) type Block<'m> = Vec<Node<'m>>;
@@ -21,19 +19,19 @@ pub(super) enum Node<'m> {
     /// A move, by its index in the module.
     Move(usize, &'m Move),
     Setting(&'m Setting),
-    Other(&'m Skipped, Action<'m>),
+    Other(&'m Statement),
     /// IF or TEST, by its first line; of TEST with what is tested.
     Branches {
-        head: &'m Skipped,
-        tested: Option<Expression<'m>>,
+        head: &'m Statement,
+        tested: Option<&'m Expression<'static>>,
         parts: Vec<Part<'m>>,
     },
     /// FOR or WHILE, by its first line.
     Loop {
-        head: &'m Skipped,
-        condition: Condition<'m>,
+        head: &'m Statement,
+        condition: &'m Condition,
         /// Of a FOR that refers to its variable, or not.
-        counter: Option<Counter<'m>>,
+        counter: Option<&'m Counter>,
         is_counted: bool,
         body: Block<'m>,
     },
@@ -42,8 +40,8 @@ pub(super) enum Node<'m> {
 /// A part of a branch.
 pub(super) struct Part<'m> {
     /// Its first line.
-    pub(super) head: &'m Skipped,
-    pub(super) condition: Condition<'m>,
+    pub(super) head: &'m Statement,
+    pub(super) condition: &'m Condition,
     pub(super) block: Block<'m>,
 }
 
@@ -67,60 +65,38 @@ pub(super) struct Body<'m> {
     pub(super) handlers: Vec<Block<'m>>,
 }
 
-/// An item of a module, with its line, its column and its routine.
-type Placed<'m> = (usize, usize, Option<&'m str>, Node<'m>);
-
 /// The statements of each routine, by its name in lower case; "" for those outside routines.
 pub(super) fn bodies(module: &Module) -> BTreeMap<String, Body<'_>> {
-    let mut items: Vec<Placed<'_>> = Vec::new();
-    items.extend(
-        (module.moves.iter().enumerate())
-            .map(|(index, it)| (it.line, it.column, it.routine.as_deref(), Node::Move(index, it))),
-    );
-    items.extend(
-        (module.settings.iter())
-            .map(|it| (it.line, it.column, it.routine.as_deref(), Node::Setting(it))),
-    );
-    items
-        .extend((module.skipped.iter()).map(|it| {
-            (it.line, it.column, it.routine.as_deref(), Node::Other(it, Action::of(it)))
-        }));
-    items.sort_by_key(|(line, column, ..)| (*line, *column));
     let mut grown: BTreeMap<String, Grower<'_>> = BTreeMap::new();
-    let mut last: Option<(Option<&str>, String)> = None;
-    for (_, _, routine, node) in items {
-        let name = match last.take() {
-            Some((of, name)) if of == routine => name,
-            _ => routine.unwrap_or_default().to_lowercase(),
-        };
-        match grown.get_mut(&name) {
-            Some(grower) => grower.add(node),
-            None => grown.entry(name.clone()).or_default().add(node),
+    for of_routine in module.statements.chunk_by(|one, next| one.routine == next.routine) {
+        let name = of_routine[0].routine.as_deref().unwrap_or_default();
+        let grower = grown.entry(name.to_lowercase()).or_default();
+        for statement in of_routine {
+            grower.add(module, statement);
         }
-        last = Some((routine, name));
     }
     grown.into_iter().map(|(name, grower)| (name, grower.finished())).collect()
 }
 
 /// A branch or a loop that is open.
 struct Open<'m> {
-    head: &'m Skipped,
+    head: &'m Statement,
+    flow: &'m Flow,
     /// Its parts that are closed.
     parts: Vec<Part<'m>>,
-    /// The first line of the part that is open: of a TEST none before its first CASE.
-    part_head: Option<&'m Skipped>,
+    /// The first line of the part that is open, and its condition: of a TEST none before its first
+    /// CASE.
+    part_head: Option<(&'m Statement, &'m Condition)>,
     /// The statements of the part that is open.
     part: Block<'m>,
-    /// Whether it is an IF without THEN, of one instruction.
-    is_single: bool,
 }
 
 impl Open<'_> {
     /// Close the open part.
     fn close_part(&mut self) {
         let block = mem::take(&mut self.part);
-        if let Some(head) = self.part_head {
-            self.parts.push(Part { head, condition: Condition::of(&head.text), block });
+        if let Some((head, condition)) = self.part_head {
+            self.parts.push(Part { head, condition, block });
         }
     }
 }
@@ -133,12 +109,16 @@ struct Grower<'m> {
 }
 
 impl<'m> Grower<'m> {
-    fn add(&mut self, node: Node<'m>) {
-        if let Node::Other(skipped, _) = &node
-            && let NotRead::Flow { word } = &skipped.what
-        {
-            return self.flow(skipped, word);
-        }
+    fn add(&mut self, module: &'m Module, statement: &'m Statement) {
+        let node = match &statement.kind {
+            StatementKind::Flow { flow, .. } => return self.flow(statement, flow),
+            StatementKind::Move(index) => match module.moves.get(*index) {
+                Some(step) => Node::Move(*index, step),
+                None => return,
+            },
+            StatementKind::Setting(setting) => Node::Setting(setting),
+            _ => Node::Other(statement),
+        };
         self.push(node);
         self.close_single();
     }
@@ -151,48 +131,48 @@ impl<'m> Grower<'m> {
         }
     }
 
-    fn flow(&mut self, head: &'m Skipped, word: &str) {
-        match word {
-            "IF" | "FOR" | "WHILE" | "TEST" => {
-                let is_single = word == "IF" && !ends_with(&head.text, "THEN");
-                let (parts, part) = (Vec::new(), Vec::new());
-                let part_head = (word != "TEST").then_some(head);
-                self.open.push(Open { head, parts, part_head, part, is_single });
-            }
-            "ELSEIF" | "ELSE" | "CASE" | "DEFAULT" => {
+    fn flow(&mut self, head: &'m Statement, flow: &'m Flow) {
+        let part_head = match flow {
+            Flow::If { condition, .. } => Some((head, condition)),
+            Flow::Test(_) | Flow::Loop { .. } => None,
+            Flow::Part(condition) => {
                 if let Some(open) = self.open.last_mut() {
                     open.close_part();
-                    open.part_head = Some(head);
+                    open.part_head = Some((head, condition));
                 }
+                return;
             }
-            "ENDIF" | "ENDFOR" | "ENDWHILE" | "ENDTEST" => {
+            Flow::End => {
                 self.close();
-                self.close_single();
+                return self.close_single();
             }
-            // A handler.
-            _ => {
+            Flow::Handler => {
                 self.close_all();
-                self.body.handlers.push(Vec::new());
+                return self.body.handlers.push(Vec::new());
             }
-        }
+        };
+        self.open.push(Open { head, flow, parts: Vec::new(), part_head, part: Vec::new() });
     }
 
     fn close(&mut self) {
         let Some(mut open) = self.open.pop() else { return };
         let head = open.head;
-        if matches!(head.what.word(), "FOR" | "WHILE") {
-            let (body, counter) = (open.part, Counter::of(&head.text));
-            let is_counted = counter.as_ref().is_some_and(|it| mentions(&body, &it.variable));
-            let condition = Condition::of(&head.text);
-            self.push(Node::Loop { head, condition, counter, is_counted, body });
-        } else {
-            open.close_part();
-            self.push(Node::Branches { head, tested: tested(&head.text), parts: open.parts });
+        if let Flow::Loop { condition, counter } = open.flow {
+            let (body, counter) = (open.part, counter.as_ref());
+            let is_counted = counter.is_some_and(|it| mentions(&body, &it.variable));
+            return self.push(Node::Loop { head, condition, counter, is_counted, body });
         }
+        open.close_part();
+        let tested = match open.flow {
+            Flow::Test(tested) => tested.as_ref(),
+            _ => None,
+        };
+        self.push(Node::Branches { head, tested, parts: open.parts });
     }
 
     fn close_single(&mut self) {
-        while self.open.last().is_some_and(|open| open.is_single) {
+        let is_single = |open: &Open<'_>| matches!(open.flow, Flow::If { is_single: true, .. });
+        while self.open.last().is_some_and(is_single) {
             self.close();
         }
     }
@@ -221,12 +201,24 @@ fn mentions(block: &Block<'_>, word: &str) -> bool {
             arguments.into_iter().chain(optional).flatten().any(|text| has(text))
         }
         Node::Setting(_) => false,
-        Node::Other(skipped, _) => has(&skipped.text),
+        Node::Other(statement) => has(&statement.text),
         Node::Branches { tested, parts, .. } => {
-            tested.as_ref().is_some_and(|tested| depends_on([tested], word))
-                || parts.iter().any(|part| part.condition.depends_on(word))
+            tested.is_some_and(|tested| depends_on(core::slice::from_ref(tested), word))
+                || parts.iter().any(|part| decides(word, part.condition))
                 || parts.iter().any(|part| mentions(&part.block, word))
         }
         Node::Loop { head, body, .. } => has(&head.text) || mentions(body, word),
     })
+}
+
+/// Whether a variable, in lower case, decides on a condition.
+fn decides(variable: &str, condition: &Condition) -> bool {
+    matches!(condition, Condition::Compared(numbers, _) if depends_on(&**numbers, variable))
+}
+
+/// Whether numbers depend on a name, in lower case, and on nothing else.
+fn depends_on(numbers: &[Expression<'_>], lower: &str) -> bool {
+    let mut names = Vec::new();
+    numbers.iter().for_each(|number| number.collect_names(&mut names));
+    !names.is_empty() && names.iter().all(|name| name.to_lowercase() == lower)
 }

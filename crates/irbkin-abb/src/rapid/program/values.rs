@@ -12,17 +12,18 @@ use super::index::DatumId;
 use super::state::{Displacement, State};
 use super::whole::Program;
 use crate::rapid::calc::wrong::not_solved;
+use crate::rapid::data::expression::{Call, Expression, Form, Name};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Datum, Storage};
 use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::GivenTools;
+use crate::rapid::data::statement::Assignment;
 use crate::rapid::data::types::{Atoms, Record};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::expression::evaluate::{Evaluator, Stop, positive_whole};
 use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, Question, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::{Call, Expression, Form};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
@@ -265,20 +266,17 @@ impl<'s> Scope<'s, '_> {
     pub(super) fn assigned(
         &self,
         text: &str,
-        target: &Expression<'_>,
-        value: &Expression<'_>,
+        Assignment { target, value, to: (lower, of_components), .. }: &Assignment,
     ) -> Option<Content> {
-        let (name, indices, components) = target.reference()?;
-        let lower = lower(name);
-        let of_components = components.join(".").to_lowercase();
-        let (data_type, content, is_array) = if let Some(local) = self.state.locals.get(&*lower) {
+        let (_, indices, components) = target.reference()?;
+        let (data_type, content, is_array) = if let Some(local) = self.state.locals.get(lower) {
             let content = local.content.as_ref().ok().and_then(|it| self.choices.content(it));
             (local.data_type, content, matches!(content, Some(Content::Array { .. })))
         } else {
-            let (id, datum) = self.program.datum(self.frame.module, &lower)?;
+            let (id, datum) = self.program.datum(self.frame.module, lower)?;
             let assigned = self.program.effects.assigned.get(&id);
             let is_declared =
-                indices.is_empty() && assigned.is_some_and(|it| it.are_within(&of_components));
+                indices.is_empty() && assigned.is_some_and(|it| it.are_within(of_components));
             let declared = Some(&datum.content).filter(|_| is_declared);
             let is_single = match &datum.content {
                 Content::Uninitialized { sizes } => sizes.is_empty(),
@@ -320,7 +318,7 @@ impl<'s> Scope<'s, '_> {
 
     /// The whole array that an expression refers to.
     pub(super) fn whole(&self, expression: &Expression<'_>) -> Option<Content> {
-        let Form::Name(name) = expression.form else { return None };
+        let Form::Name(name) = &expression.form else { return None };
         match self.find(At::default(), name) {
             Lookup::Datum { content: content @ Content::Array { .. }, cause: None, .. } => {
                 Some(content.clone())
@@ -335,7 +333,7 @@ impl<'s> Scope<'s, '_> {
         text: &str,
         value: &Expression<'_>,
         data_type: DataType,
-        components: &[&str],
+        components: &[Name<'_>],
     ) -> Option<Atoms> {
         let (of, _) = data_type.described().part(components)?;
         known(self.evaluator(text).atoms(value, of)).ok()

@@ -14,22 +14,20 @@ use super::effects::{releases, written_by};
 use super::frame::Frame;
 use super::moves::place_behind;
 use super::state::{Displacement, Here, State};
-use super::statement::{Action, Condition, Instruction};
 use super::tree::{Block, Node, Part};
 use super::values::Calls as _;
 use super::walker::{Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
+use crate::rapid::data::expression::{Expression, Name};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Storage;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::records::GivenTools;
-use crate::rapid::data::settings::Setting;
-use crate::rapid::data::unread::{Reason, Skipped};
+use crate::rapid::data::statement::{Condition, Instruction, Setting, Statement, StatementKind};
+use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::names::lower;
-use crate::rapid::expression::tree::Expression;
-use crate::rapid::text::words::words_of;
 use irbkin::{Interrupt, Interrupted};
 
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
@@ -121,12 +119,12 @@ impl<'m> Walk<'_, 'm> {
             match node {
                 Node::Move(index, step) => self.step(*index, step),
                 Node::Setting(setting) => self.set(setting),
-                Node::Other(skipped, action) => self.statement(skipped, action),
+                Node::Other(statement) => self.statement(statement),
                 Node::Branches { head, tested, parts } => {
                     if self.is_one && parts.iter().any(|part| self.acts(&part.block)) {
-                        self.decides(head.line, head.what.word());
+                        self.decides(head.line, head.kind.word());
                     }
-                    self.branches(head, tested.as_ref(), parts);
+                    self.branches(head, *tested, parts);
                 }
                 Node::Loop { head, condition: Condition::Never, body, .. } => {
                     self.never_run(head, body);
@@ -142,11 +140,20 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// A branch: the part whose condition holds, or every part whose condition may.
-    fn branches(&mut self, head: &'m Skipped, tested: Option<&Expression<'m>>, parts: &[Part<'m>]) {
+    fn branches(
+        &mut self,
+        head: &'m Statement,
+        tested: Option<&Expression<'m>>,
+        parts: &[Part<'m>],
+    ) {
         let (mut open, mut is_passed) = (Vec::new(), true);
+        let tested = tested.map(|it| (&*head.text, it));
         for (index, part) in parts.iter().enumerate() {
-            let holds =
-                if is_passed { self.holds((head, tested), &part.condition) } else { Some(false) };
+            let holds = if is_passed {
+                self.holds(tested, (&part.head.text, part.condition))
+            } else {
+                Some(false)
+            };
             is_passed &= holds != Some(true);
             match holds {
                 Some(false) if matches!(part.condition, Condition::Never) => {
@@ -183,8 +190,8 @@ impl<'m> Walk<'_, 'm> {
     /// Whether a condition holds here, by arguments, by what was assigned, and by constants.
     pub(super) fn holds(
         &mut self,
-        (head, tested): (&'m Skipped, Option<&Expression<'m>>),
-        condition: &Condition<'m>,
+        tested: Option<(&str, &Expression<'_>)>,
+        (text, condition): (&str, &Condition),
     ) -> Option<bool> {
         match condition {
             Condition::Always => Some(true),
@@ -193,14 +200,14 @@ impl<'m> Walk<'_, 'm> {
                 let is_there = self.frame.present.contains(name);
                 (is_there || self.frame.absent.contains(name)).then_some(is_there == *is_wanted)
             }
-            Condition::Compared { text, numbers: [left, right], relation } => {
-                let operands = [(*text, left), (*text, right)].map(|it| self.certain_number(it));
+            Condition::Compared(numbers, relation) => {
+                let operands = numbers.each_ref().map(|it| self.certain_number((text, it)));
                 let [left, right] = operands;
-                Some(relation(left?, right?))
+                Some(relation.holds(left?, right?))
             }
-            Condition::Case { text, numbers } => {
-                let own = self.certain_number((&head.text, tested?))?;
-                let numbers = numbers.iter().map(|it| self.certain_number((*text, it)));
+            Condition::Case(numbers) => {
+                let own = self.certain_number(tested?)?;
+                let numbers = numbers.iter().map(|it| self.certain_number((text, it)));
                 let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
                 Some(numbers.iter().any(|number| number.total_cmp(&own).is_eq()))
             }
@@ -213,7 +220,7 @@ impl<'m> Walk<'_, 'm> {
     fn certain_number(&mut self, (text, expression): (&str, &Expression<'_>)) -> Option<f64> {
         let mut names = Vec::new();
         expression.collect_names(&mut names);
-        let is_certain = |name: &&str| {
+        let is_certain = |name: &Name<'_>| {
             let lower = lower(name);
             let datum = self.program.datum(self.frame.module, &lower);
             self.state.locals.contains_key(&*lower)
@@ -260,10 +267,10 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// A block that is never executed.
-    fn never_run(&mut self, head: &Skipped, block: &Block<'m>) {
+    fn never_run(&mut self, head: &Statement, block: &Block<'m>) {
         if block.iter().any(|node| matches!(node, Node::Move(..) | Node::Loop { .. })) {
             let finding = Finding::new(Code::NeverRun, "what follows is never executed");
-            self.notes.push(finding.in_module(self.frame.module).at_skipped(head, 0));
+            self.notes.push(finding.in_module(self.frame.module).at_statement(head, 0));
         }
     }
 
@@ -276,8 +283,7 @@ impl<'m> Walk<'_, 'm> {
     }
 
     fn set(&mut self, setting: &Setting) {
-        let mut words = words_of(&setting.text);
-        self.state.settings.set(words.next().unwrap_or_default(), words.next());
+        self.state.settings.set(&setting.name, setting.switch.as_deref());
     }
 
     /// A move, with the values that it has here.
@@ -356,41 +362,43 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Something that is no move and no branch.
-    fn statement(&mut self, skipped: &'m Skipped, action: &Action<'m>) {
-        match action {
-            Action::Nothing => {}
-            Action::Unread => self.not_followed(skipped, skipped.what.to_string()),
-            Action::Label => {
+    fn statement(&mut self, skipped: &'m Statement) {
+        match &skipped.kind {
+            StatementKind::Unfinished { .. } | StatementKind::Invalid { .. } => {
+                self.not_followed(skipped, skipped.kind.to_string());
+            }
+            StatementKind::Label { .. } => {
                 if let Some(body) = self.program.body(self.frame.module, &self.frame.routine) {
                     self.forget(&body.main);
                 }
                 self.state.here = Here::Unknown;
             }
-            Action::Assign { target, value, to } => {
-                let ways = self.in_each_case(|scope| scope.assigned(&skipped.text, target, value));
+            StatementKind::Assignment(own) => {
+                let ways = self.in_each_case(|it| it.assigned(&skipped.text, own));
                 if ways.iter().any(|way| way.value.is_none()) {
-                    self.note_out_of_reach(skipped, value);
+                    self.note_out_of_reach(skipped, &own.value);
                 }
                 let written = skipped.text.trim_end_matches(';').split_once(":=");
                 let words = written.map(|(to, value)| format!("{} is {}", to.trim(), value.trim()));
                 let words = words.unwrap_or_default();
-                self.put(&to.0, Known::of_ways(ways, |content| content, &words));
+                self.put(&own.to.0, Known::of_ways(ways, |content| content, &words));
             }
-            Action::Instruct(instruction) => self.instruct(skipped, instruction),
+            StatementKind::Instruction(instruction) => self.instruct(skipped, instruction),
+            _ => {}
         }
     }
 
     /// Report a calculated target that the robot does not reach.
-    fn note_out_of_reach(&mut self, skipped: &'m Skipped, value: &Expression<'m>) {
+    fn note_out_of_reach(&mut self, skipped: &'m Statement, value: &Expression<'_>) {
         let scope = self.scope();
         let certain = || scope.value(&skipped.text, value, DataType::JointTarget);
         if let Err(reason @ Reason::Robot { .. }) = scope.choices.without(certain) {
             let found = Finding::unknown(Code::UnknownTarget, &reason, reason.to_string());
-            self.notes.push(found.in_module(self.frame.module).at_skipped(skipped, 0));
+            self.notes.push(found.in_module(self.frame.module).at_statement(skipped, 0));
         }
     }
 
-    fn instruct(&mut self, skipped: &'m Skipped, instruction: &Instruction<'m>) {
+    fn instruct(&mut self, skipped: &'m Statement, instruction: &Instruction) {
         if releases(self.program, self.frame.module, instruction) {
             self.state.place = Err("the robot may be moved by hand or by a call before it");
         }
@@ -403,7 +411,7 @@ impl<'m> Walk<'_, 'm> {
                 let home = name.and_then(|name| self.program.procedure(self.frame.module, name));
                 match home {
                     Some(_) => self.call(skipped, instruction),
-                    None => self.not_followed(skipped, skipped.what.to_string()),
+                    None => self.not_followed(skipped, skipped.kind.to_string()),
                 }
             }
             Effect::Returns => {
@@ -427,10 +435,10 @@ impl<'m> Walk<'_, 'm> {
                 let unknown = (Err(skipped.line), None);
                 (self.state.offsets, self.state.assumed_shift) = known.unwrap_or(unknown);
             }
-            Effect::Sets => self.not_followed(skipped, skipped.what.to_string()),
+            Effect::Sets => self.not_followed(skipped, skipped.kind.to_string()),
             Effect::Stops if self.is_one => self.state.here = Here::Left,
             Effect::Waits | Effect::Stops => {
-                self.halt(&format!("{} on line {}", skipped.what.word(), skipped.line));
+                self.halt(&format!("{} on line {}", skipped.kind.word(), skipped.line));
             }
             Effect::Nothing => self.call(skipped, instruction),
         }

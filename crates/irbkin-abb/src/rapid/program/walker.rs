@@ -13,16 +13,15 @@ use nalgebra::Vector3;
 use super::cases::{Case, Choices, MOST_CASES, Way};
 use super::frame::Frame;
 use super::state::{Here, State};
-use super::statement::Action;
 use super::tree::{Block, Node, size};
 use super::values::Scope;
 use super::whole::Program;
+use crate::rapid::data::expression::Expression;
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind, Target};
 use crate::rapid::data::records::GivenTools;
-use crate::rapid::data::unread::Skipped;
-use crate::rapid::expression::tree::Expression;
+use crate::rapid::data::statement::{Statement, StatementKind};
 use irbkin::Interrupt;
 
 /// Statements, moves, and the way of the tool [mm] that are followed for each hundred bytes of the
@@ -45,7 +44,7 @@ pub(in crate::rapid) enum Step<'m> {
     /// A move.
     Move(Box<Stepped<'m>>),
     /// Something that may move the robot and is not followed, with the reason.
-    NotFollowed { module: usize, skipped: &'m Skipped, words: String },
+    NotFollowed { module: usize, statement: &'m Statement, words: String },
 }
 
 /// A move with the values that it has here.
@@ -410,10 +409,10 @@ impl<'p, 'm> Walk<'p, 'm> {
     }
 
     /// Something that may move the robot and is not followed.
-    pub(super) fn not_followed(&mut self, skipped: &'m Skipped, words: String) {
+    pub(super) fn not_followed(&mut self, statement: &'m Statement, words: String) {
         let module = self.frame.module;
         self.state.place = Err("what may move the robot before it is not followed");
-        self.push(Step::NotFollowed { module, skipped, words });
+        self.push(Step::NotFollowed { module, statement, words });
     }
 
     /// Whether a block moves the robot, sets how it moves, or leaves the routine.
@@ -423,9 +422,9 @@ impl<'p, 'm> Walk<'p, 'm> {
             Node::Setting(_) => true,
             Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(&part.block)),
             Node::Loop { body, .. } => self.acts(body),
-            Node::Other(_, action) => match action {
-                Action::Unread => true,
-                Action::Instruct(instruction) => match instruction.effect {
+            Node::Other(statement) => match &statement.kind {
+                StatementKind::Unfinished { .. } | StatementKind::Invalid { .. } => true,
+                StatementKind::Instruction(instruction) => match instruction.effect {
                     Effect::Moves | Effect::Leaves | Effect::Returns => true,
                     _ => instruction.name.as_ref().is_some_and(|name| {
                         let home = self.program.procedure(self.frame.module, name);

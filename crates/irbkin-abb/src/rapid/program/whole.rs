@@ -30,7 +30,7 @@ impl<'m> Program<'m> {
 
     /// Whether the program assigns a target with its confdata.
     pub(in crate::rapid) fn assigns_confdata(&self, target: DatumId) -> bool {
-        let atoms = atoms_of(DataType::RobTarget.described(), &["robconf"]);
+        let atoms = atoms_of(DataType::RobTarget.described(), &["robconf".into()]);
         let assigned = self.effects.assigned.get(&target);
         assigned.is_some_and(|it| it.meets(DataType::RobTarget, &atoms))
     }

@@ -5,13 +5,15 @@ pub(crate) mod resolver;
 
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
 
 use self::resolver::{Causes, Resolver};
 use crate::rapid::data::module::{Datum, Module, routine_name};
-use crate::rapid::data::unread::{NotRead, Reason, Skipped};
+use crate::rapid::data::statement::{Statement, StatementKind};
+use crate::rapid::data::unread::Reason;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::reader::Written;
@@ -29,9 +31,8 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         parts,
         types,
         mut moves,
-        mut skipped,
+        mut statements,
         faults,
-        settings,
         assignments,
         scopes,
         blocks,
@@ -59,13 +60,11 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         faults,
     };
     resolver.resolve_all()?;
-    let (moves, not_moves) = resolver.moves(&mut moves, &routines)?;
-    skipped.extend(not_moves);
-    resolver.tell_calls(&mut skipped);
+    let moves = resolver.moves(&mut moves, &mut statements, &routines)?;
     let Resolver { contents, causes, faults, .. } = resolver;
     let mut faults = faults.kept;
     faults.sort_by_key(|fault| (fault.line, fault.column));
-    let mut all = ResolvedData { skipped, ..ResolvedData::default() };
+    let mut all = ResolvedData { statements, ..ResolvedData::default() };
     all.data.reserve_exact(declared.len());
     for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
         if let Some(name) = parts.get(&i) {
@@ -75,8 +74,8 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         let routine = routine_name(&routines, datum.routine);
         all.add(text, datum, routine, content, causes.of_datum(i).is_some());
     }
-    let ResolvedData { data, parts: of_records, places, mut skipped, expressions } = all;
-    skipped.sort_by_key(|skipped| (skipped.line, skipped.column));
+    let ResolvedData { data, parts: of_records, places, mut statements, expressions } = all;
+    statements.sort_by_key(|statement| (statement.line, statement.column));
     let assigned = causes.names(&declared, parts);
     let index = scopes
         .module_data()
@@ -89,9 +88,8 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         routines,
         data,
         moves,
-        skipped,
+        statements,
         faults,
-        settings,
         index,
         assigned,
         expressions,
@@ -110,7 +108,7 @@ struct ResolvedData {
     parts: BTreeMap<String, Datum>,
     /// The place of each declaration among the data.
     places: Vec<Option<usize>>,
-    skipped: Vec<Skipped>,
+    statements: Vec<Statement>,
     /// The values that refer to assigned data, as they are written, by the place of the datum.
     expressions: BTreeMap<usize, String>,
 }
@@ -139,10 +137,11 @@ impl ResolvedData {
         let placed = match content {
             Ok(placed) => placed,
             Err(reason) => {
-                let what = NotRead::Datum { name, reason };
+                let kind = StatementKind::Datum { name, reason };
                 let text = source(declared.start..declared.end);
                 let Declared { line, column, start, .. } = *declared;
-                self.skipped.push(Skipped { line, column, routine, what, text, start });
+                let routine = routine.map(Arc::from);
+                self.statements.push(Statement { line, column, routine, kind, text, start });
                 return;
             }
         };

@@ -1,17 +1,19 @@
 //! Moves with the values of their arguments.
 
+use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::resolver::Resolver;
+use crate::rapid::data::expression::Expression;
 use crate::rapid::data::module::{Routine, routine_name};
 use crate::rapid::data::moves::{Argument, ExtraArgument, Move, MoveKind, Target};
 use crate::rapid::data::moving::Places;
 use crate::rapid::data::records::{SpeedData, ToolData, ZoneData};
+use crate::rapid::data::statement::{Instruction, Statement, StatementKind};
 use crate::rapid::data::types::Record;
-use crate::rapid::data::unread::{NotRead, Reason, Skipped};
+use crate::rapid::data::unread::Reason;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
-use crate::rapid::expression::tree::Expression;
 use crate::rapid::statements::moves::WrittenMove;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::place::Place;
@@ -108,54 +110,51 @@ impl<'a> Resolver<'a> {
         step.instruction.places(&types)
     }
 
-    /// The moves with the values of their arguments, and the others: calls of routines that have
-    /// the name of an instruction, and instructions with arguments of another form.
+    /// The moves with the values of their arguments. The others are calls of routines that have the
+    /// name of an instruction, and instructions with arguments of another form.
     pub(super) fn moves(
         &mut self,
         written: &mut [WrittenMove<'a>],
+        statements: &mut [Statement],
         routines: &[Routine],
-    ) -> Result<(Vec<Move>, Vec<Skipped>), RapidFault> {
+    ) -> Result<Vec<Move>, RapidFault> {
         let mut moves = Vec::with_capacity(written.len());
-        let mut others = Vec::new();
-        for (index, step) in written.iter_mut().enumerate() {
+        for (index, statement) in statements.iter_mut().enumerate() {
             self.faults.interrupt.check(index)?;
-            let name = step.name.to_string();
+            let place = match &mut statement.kind {
+                StatementKind::Instruction(it) => {
+                    it.is_motion = it.is_motion && !self.is_routine(&it.word);
+                    continue;
+                }
+                StatementKind::Move(place) => place,
+                _ => continue,
+            };
+            let Some(step) = written.get_mut(*place) else { continue };
             // A routine may have the name of an instruction.
             let is_call = !step.instruction.is_basic() && self.is_routine(step.name);
             let made = if is_call { Ok(None) } else { self.step(step, routines) };
-            let what = match made {
+            let kind = match made {
                 Ok(Some(made)) => {
+                    *place = moves.len();
                     moves.push(made);
                     continue;
                 }
-                Ok(None) => NotRead::Motion { name },
+                Ok(None) => {
+                    let arguments = core::mem::take(&mut step.arguments).owned(step.start);
+                    let instruction = Instruction::new(step.name, Some(step.name), arguments);
+                    let is_motion = !is_call;
+                    StatementKind::Instruction(Box::new(Instruction { is_motion, ..instruction }))
+                }
                 Err(fault) => {
                     let words = fault.kind.to_string();
                     self.faults.add(fault)?;
-                    NotRead::Invalid { statement: name, fault: words }
+                    StatementKind::Invalid { statement: step.name.to_string(), fault: words }
                 }
             };
-            others.push(Skipped {
-                line: step.line,
-                column: step.column,
-                routine: routine_name(routines, step.at.routine),
-                what,
-                text: self.text[step.start..step.end].to_string(),
-                start: step.start,
-            });
+            statement.kind = kind;
+            statement.text = self.text[step.start..step.end].to_string();
         }
-        Ok((moves, others))
-    }
-
-    /// Name the calls of routines among the instructions that move and are not read.
-    pub(super) fn tell_calls(&self, skipped: &mut [Skipped]) {
-        for part in skipped {
-            if let NotRead::Motion { name } = &part.what
-                && self.is_routine(name)
-            {
-                part.what = NotRead::Instruction { name: name.clone() };
-            }
-        }
+        Ok(moves)
     }
 
     /// A move with the values of its arguments; `None` if they are of another instruction.

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
 
+use crate::rapid::data::expression::Name;
 use crate::rapid::data::module::{Datum, Module, Scope, Storage};
 use crate::rapid::data::types::{LOADDATA, TOOLDATA, Type};
 use crate::rapid::data::unread::{Reason, Unresolved};
@@ -234,7 +235,7 @@ impl<'a> Causes<'a> {
     /// The causes from assignments: each applies to the datum that its name refers to at its place.
     /// A CONST cannot be assigned.
     pub(crate) fn new(
-        assignments: &[Assignment<'a>],
+        assignments: &'a [Assignment<'a>],
         declared: &[Declared<'_>],
         scopes: &Scopes,
         blocks: &Blocks<'_>,
@@ -375,7 +376,7 @@ impl<'a> Causes<'a> {
 const ALL: Range<usize> = 0..usize::MAX;
 
 /// The atoms of a component; all if there is no such component.
-pub(crate) fn atoms_of(of: &'static Type, components: &[&str]) -> Range<usize> {
+pub(crate) fn atoms_of(of: &'static Type, components: &[Name<'_>]) -> Range<usize> {
     match of.part(components) {
         Some((part, begin)) if !components.is_empty() => begin..begin + part.size(),
         _ => ALL,

@@ -1,8 +1,11 @@
-//! Control flow: blocks are recognized, conditions are not evaluated.
+//! Control flow: the lines of branches, loops and handlers.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use super::declarations::read_name;
+use crate::rapid::data::expression::Expression;
+use crate::rapid::data::statement::{Condition, Counter, Flow};
 use crate::rapid::expression::reader::{DEEPEST_NESTING, ExpressionReader};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
@@ -62,68 +65,81 @@ impl<'a> Blocks<'a> {
         tokens: &mut Tokens<'a>,
         word: &str,
         token: Token,
-    ) -> Result<(), RapidFault> {
-        match word {
+    ) -> Result<Flow, RapidFault> {
+        let begin = token.start;
+        Ok(match word {
             _ if BLOCKS.iter().any(|(_, end)| *end == word) => {
                 self.open.pop();
-                Ok(())
+                Flow::End
             }
             "IF" => {
-                condition(tokens)?;
-                // Without THEN it is one instruction, which follows.
-                if tokens.take_word("THEN")? {
-                    self.begin(tokens, 0, None, token)
+                let condition = Condition::of(operand(tokens, begin)?);
+                let is_single = !tokens.take_word("THEN")?;
+                if is_single {
+                    check_instruction(tokens)?;
                 } else {
-                    check_instruction(tokens)
+                    self.begin(tokens, 0, None, token)?;
                 }
+                Flow::If { condition, is_single }
             }
             "ELSEIF" => {
-                condition(tokens)?;
-                demand_word(tokens, "THEN")
+                let condition = Condition::of(operand(tokens, begin)?);
+                demand_word(tokens, "THEN")?;
+                Flow::Part(condition)
             }
             "FOR" => {
                 let variable = read_name(tokens, "the variable of the loop")?;
                 demand_word(tokens, "FROM")?;
-                condition(tokens)?;
+                let from = operand(tokens, begin)?;
                 demand_word(tokens, "TO")?;
-                condition(tokens)?;
+                let to = operand(tokens, begin)?;
+                let mut step = None;
                 if tokens.take_word("STEP")? {
-                    condition(tokens)?;
+                    step = Some(Box::new(operand(tokens, begin)?));
                 }
                 demand_word(tokens, "DO")?;
                 self.loops.push((variable, self.innermost_loop()));
-                self.begin(tokens, 1, Some(self.loops.len() - 1), token)
+                self.begin(tokens, 1, Some(self.loops.len() - 1), token)?;
+                let (variable, bounds) = (variable.to_lowercase(), Box::new([from, to]));
+                let counter = Some(Counter { variable, bounds, step });
+                Flow::Loop { condition: Condition::Other, counter }
             }
             "WHILE" => {
-                condition(tokens)?;
+                let condition = Condition::of(operand(tokens, begin)?);
                 demand_word(tokens, "DO")?;
-                self.begin(tokens, 2, None, token)
+                self.begin(tokens, 2, None, token)?;
+                Flow::Loop { condition, counter: None }
             }
             "TEST" => {
-                condition(tokens)?;
-                if ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word)) {
-                    self.begin(tokens, 3, None, token)
-                } else {
-                    Err(tokens.lacking("CASE"))
+                let tested = operand(tokens, begin)?;
+                if !["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word)) {
+                    return Err(tokens.lacking("CASE"));
                 }
+                self.begin(tokens, 3, None, token)?;
+                Flow::Test(Some(tested))
             }
-            "CASE" | "DEFAULT" => {
-                if word == "CASE" {
-                    condition(tokens)?;
-                    while tokens.take_if(b',')? {
-                        condition(tokens)?;
-                    }
+            "CASE" => {
+                let mut values = Vec::from([operand(tokens, begin)?]);
+                while tokens.take_if(b',')? {
+                    values.push(operand(tokens, begin)?);
                 }
-                tokens.demand(b':', "a colon")
+                tokens.demand(b':', "a colon")?;
+                Flow::Part(Condition::Case(values))
             }
+            "DEFAULT" => {
+                tokens.demand(b':', "a colon")?;
+                Flow::Part(Condition::Always)
+            }
+            "ELSE" => Flow::Part(Condition::Always),
             // A handler may name the errors that it handles.
             "ERROR" if tokens.peek().is(b'(') => {
                 tokens.take()?;
                 ExpressionReader::of_condition(tokens).arguments()?;
-                tokens.demand(b')', "a comma or )")
+                tokens.demand(b')', "a comma or )")?;
+                Flow::Handler
             }
-            _ => Ok(()),
-        }
+            _ => Flow::Handler,
+        })
     }
 
     fn begin(
@@ -147,12 +163,17 @@ impl<'a> Blocks<'a> {
         self.open.len()
     }
 
-    /// Open the block that a word begins, in any case; false if none is opened.
-    pub(super) fn open(&mut self, word: &str) -> bool {
+    /// Open the block that an invalid line begins by a word, in any case, if it may be opened.
+    pub(super) fn open(&mut self, word: &str) -> Option<Flow> {
         let block = BLOCKS.iter().position(|(begin, _)| begin.eq_ignore_ascii_case(word));
-        let block = block.filter(|_| self.open.len() < DEEPEST_NESTING);
-        self.open.extend(block.map(|block| (block, None)));
-        block.is_some()
+        let block = block.filter(|_| self.open.len() < DEEPEST_NESTING)?;
+        self.open.push((block, None));
+        let condition = Condition::Other;
+        Some(match BLOCKS[block].0 {
+            "IF" => Flow::If { condition, is_single: false },
+            "TEST" => Flow::Test(None),
+            _ => Flow::Loop { condition, counter: None },
+        })
     }
 
     /// Close the innermost block; its end.
@@ -174,9 +195,9 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// Read what is between the words of a branch or a loop.
-fn condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
-    ExpressionReader::of_condition(tokens).expression().map(|_| ())
+/// Read what is between the words of a branch or a loop that begins at a byte.
+fn operand(tokens: &mut Tokens<'_>, begin: usize) -> Result<Expression<'static>, RapidFault> {
+    Ok(ExpressionReader::of_condition(tokens).expression()?.owned(begin))
 }
 
 pub(super) fn demand_word(tokens: &mut Tokens<'_>, word: &'static str) -> Result<(), RapidFault> {

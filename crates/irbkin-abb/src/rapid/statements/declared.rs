@@ -3,6 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use crate::rapid::data::expression::Name;
 use crate::rapid::data::module::{Scope, Storage};
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::{Placed, WrittenContent};
@@ -20,7 +21,7 @@ pub(crate) struct Declared<'a> {
     /// Index of the routine, from 1; 0 for the module.
     pub(crate) routine: usize,
     /// Names that its sizes and its value refer to.
-    pub(crate) names: Vec<&'a str>,
+    pub(crate) names: Vec<Name<'a>>,
     /// How many of the names, the first, belong to the sizes.
     pub(crate) size_names: usize,
     /// Bytes of the statement with its semicolon.

@@ -1,24 +1,24 @@
 //! Instructions: moves, and those that are not read but move the robot, displace its targets, or
 //! write to their arguments.
 
-use alloc::string::ToString;
+use alloc::boxed::Box;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::blocks::demand_word;
 use super::faults::end_statement;
 use super::moves::{WrittenMove, read_move};
 use super::reader::{Assignment, Named, StatementReader};
+use crate::rapid::data::expression::{Arguments, Expression, Form, Name};
 use crate::rapid::data::instructions::{Effect, Shift};
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::moving::MoveInstruction;
-use crate::rapid::data::settings::Setting;
+use crate::rapid::data::statement::{self, Instruction, Setting, StatementKind};
 use crate::rapid::data::types::Type;
-use crate::rapid::data::unread::NotRead;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::reader::{ExpressionReader, note};
-use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind};
 
@@ -61,7 +61,7 @@ impl<'a> StatementReader<'a> {
         }
         let (tokens, faults) = (&mut self.tokens, &mut self.written.faults);
         let Some(step) = read_move(tokens, faults, instruction, (token.start, name))? else {
-            self.skip_unfinished(token);
+            self.add_unfinished(token);
             return Ok(());
         };
         let at = self.at();
@@ -73,12 +73,14 @@ impl<'a> StatementReader<'a> {
         if let Some((name, ..)) = written.and_then(Expression::reference) {
             self.written.assignments.push(Assignment {
                 at,
-                name,
+                name: name.clone(),
                 components: Vec::new(),
                 line: step.line,
             });
         }
         let settings = self.settings;
+        let kind = StatementKind::Move(self.written.moves.len());
+        self.add_at(step.start, kind, String::new());
         self.written.moves.push(WrittenMove { at, displaced, settings, ..step });
         Ok(())
     }
@@ -89,7 +91,7 @@ impl<'a> StatementReader<'a> {
         let next = self.tokens.peek();
         if next.is(b':') {
             self.tokens.take()?;
-            self.skip(first, NotRead::Label { name: name.to_string() });
+            self.add(first, StatementKind::Label { name: name.to_string() });
             return Ok(());
         }
         if next.kind == TokenKind::Assign || next.is(b'{') || next.is(b'.') {
@@ -98,7 +100,7 @@ impl<'a> StatementReader<'a> {
         if first.kind == TokenKind::Placeholder {
             // With or without a semicolon.
             self.tokens.take_if(b';')?;
-            self.skip_unfinished(first);
+            self.add_unfinished(first);
             return Ok(());
         }
         if self.setting(first)? {
@@ -111,12 +113,9 @@ impl<'a> StatementReader<'a> {
         let name = self.tokens.text_of(first);
         let is_element = self.tokens.peek().is(b'{');
         let mut reader = ExpressionReader::of_statement(&mut self.tokens);
-        let form = reader.behind_name(name)?;
+        let target = reader.behind_name(first)?;
         let Some(value) = reader.assigned()? else { return Err(self.tokens.lacking(":=")) };
-        let components = match form {
-            Form::Reference(target) => target.components,
-            _ => Vec::new(),
-        };
+        let components = target.reference().map_or(Vec::new(), |(.., it)| it.to_vec());
         let of = self.type_of_assigned(name, is_element, &components);
         if let Some((byte, of, found)) = of.and_then(|of| wrong_part(&value, of)) {
             let (thing, part) = (name.to_string(), of.name.to_string());
@@ -125,8 +124,15 @@ impl<'a> StatementReader<'a> {
             self.complain(self.tokens.fault(byte, kind))?;
         }
         self.end("an operator or a semicolon")?;
-        let line = self.skip(first, NotRead::Assignment { name: name.to_string() });
-        self.written.assignments.push(Assignment { at: self.at(), name, components, line });
+        let assignment = statement::Assignment {
+            name: name.to_string(),
+            to: target.referred().unwrap_or_default(),
+            target: target.owned(first.start),
+            value: value.owned(first.start),
+        };
+        let line = self.add(first, StatementKind::Assignment(Box::new(assignment)));
+        let (at, name) = (self.at(), name.into());
+        self.written.assignments.push(Assignment { at, name, components, line });
         Ok(())
     }
 
@@ -135,7 +141,7 @@ impl<'a> StatementReader<'a> {
         &self,
         name: &str,
         is_element: bool,
-        components: &[&str],
+        components: &[Name<'_>],
     ) -> Option<&'static Type> {
         let named = self.written.scopes.find(self.routine, &name.to_lowercase());
         let Some(Named::Datum(index)) = named else { return None };
@@ -157,15 +163,21 @@ impl<'a> StatementReader<'a> {
             "RETURN" | "RAISE" => !is_alone,
             _ => matches!(word, "GOTO" | "CONNECT"),
         };
+        let mut arguments = Arguments::default();
         if has_value {
-            ExpressionReader::of_statement(&mut self.tokens).expression()?;
+            let value = ExpressionReader::of_statement(&mut self.tokens).expression()?;
+            arguments.required.push(value);
         }
         if word == "CONNECT" {
             demand_word(&mut self.tokens, "WITH")?;
-            ExpressionReader::of_statement(&mut self.tokens).expression()?;
+            let trap = ExpressionReader::of_statement(&mut self.tokens).expression()?;
+            arguments.required.push(trap);
         }
         self.end("a semicolon")?;
-        self.skip(first, NotRead::Instruction { name: self.tokens.text_of(first).to_string() });
+        let first_word = self.tokens.text_of(first);
+        let arguments = arguments.owned(first.start);
+        let instruction = Instruction::new(first_word, Some(first_word), arguments);
+        self.add(first, StatementKind::Instruction(Box::new(instruction)));
         Ok(())
     }
 
@@ -177,19 +189,19 @@ impl<'a> StatementReader<'a> {
         if let Some(name) = named {
             note(&mut self.tokens, name, false, &arguments);
         }
-        let what = match name.filter(|it| Effect::of(it) == Effect::Moves) {
-            Some(name) => NotRead::Motion { name: name.to_string() },
-            None => NotRead::Instruction { name: self.tokens.text_of(first).to_string() },
-        };
-        let line = self.skip(first, what);
-        match name.map(Effect::of) {
-            Some(Effect::Displaces(Shift::Off)) => self.displaced_by = None,
-            Some(Effect::Displaces(_)) => self.displaced_by = Some(line),
+        let place = name.and_then(written_argument);
+        let written = place.and_then(|place| arguments.required.get(place - 1));
+        let assigned = written.and_then(Expression::reference).map(|(name, ..)| name.clone());
+        let first_word = self.tokens.text_of(first);
+        let instruction = Instruction::new(first_word, name, arguments.owned(first.start));
+        let effect = instruction.effect;
+        let line = self.add(first, StatementKind::Instruction(Box::new(instruction)));
+        match effect {
+            Effect::Displaces(Shift::Off) => self.displaced_by = None,
+            Effect::Displaces(_) => self.displaced_by = Some(line),
             _ => {}
         }
-        let written = name.and_then(written_argument);
-        let written = written.and_then(|place| arguments.required.get(place - 1));
-        if let Some((name, ..)) = written.and_then(Expression::reference) {
+        if let Some(name) = assigned {
             let (at, components) = (self.at(), Vec::new());
             self.written.assignments.push(Assignment { at, name, components, line });
         }
@@ -219,10 +231,8 @@ impl<'a> StatementReader<'a> {
             return Ok(false);
         }
         self.tokens.take()?;
-        let (line, column) = self.tokens.line_and_column(first.start);
-        let text = self.written.text[first.start..self.tokens.last_end].to_string();
-        let routine = self.current_routine().map(|routine| routine.name.clone());
-        self.written.settings.push(Setting { line, column, routine, text });
+        let setting = Setting { name: name.to_string(), switch: switch.map(String::from) };
+        self.add(first, StatementKind::Setting(setting));
         Ok(true)
     }
 }

@@ -4,12 +4,12 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::faults::{Faults, end_statement};
+use crate::rapid::data::expression::Arguments;
 use crate::rapid::data::moves::MoveOption;
 use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::expression::names::At;
 use crate::rapid::expression::reader::{ExpressionReader, note};
-use crate::rapid::expression::tree::Arguments;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, Tokens};
 

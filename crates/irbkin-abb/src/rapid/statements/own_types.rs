@@ -9,7 +9,8 @@ use super::reader::{Named, StatementReader};
 use super::recovery::begins_other;
 use crate::rapid::data::module::Scope;
 use crate::rapid::data::own_types::{Definition, OwnType};
-use crate::rapid::data::unread::{NotRead, Unresolved};
+use crate::rapid::data::statement::StatementKind;
+use crate::rapid::data::unread::Unresolved;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{Token, TokenKind};
 
@@ -18,7 +19,7 @@ impl StatementReader<'_> {
         self.tokens.take()?;
         let name = read_name(&mut self.tokens, "the name of the record")?;
         let components = self.components(name)?;
-        self.skip(first, NotRead::Record { name: name.to_string() });
+        self.add(first, StatementKind::Record { name: name.to_string() });
         self.declare(first, name, Named::Other(Unresolved::Type))?;
         if let Some(components) = components {
             self.define(first, name, Definition::Record(components));
@@ -52,7 +53,7 @@ impl StatementReader<'_> {
         let of = read_name(&mut self.tokens, "a type")?;
         let name = read_name(&mut self.tokens, "the name of the type")?;
         self.tokens.demand(b';', "a semicolon")?;
-        self.skip(first, NotRead::Alias { name: name.to_string() });
+        self.add(first, StatementKind::Alias { name: name.to_string() });
         self.define(first, name, Definition::Alias(of.to_lowercase()));
         Ok(())
     }

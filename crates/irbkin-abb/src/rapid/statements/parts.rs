@@ -8,12 +8,12 @@ use alloc::vec::Vec;
 use super::declared::{Declared, known_at_once};
 use super::faults::{Faults, end_statement};
 use super::types::{TypeKind, Types};
+use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::module::{Scope, Storage};
 use crate::rapid::data::own_types::DEEPEST_TYPE;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::Tokens;
 

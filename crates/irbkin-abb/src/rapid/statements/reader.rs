@@ -4,6 +4,7 @@ use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::blocks::Blocks;
@@ -11,10 +12,12 @@ use super::declarations::Declared;
 use super::faults::Faults;
 use super::moves::WrittenMove;
 use super::types::Types;
+use crate::rapid::data::expression::Name;
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::own_types::OwnTypes;
-use crate::rapid::data::settings::{MotionSettings, Setting};
-use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
+use crate::rapid::data::settings::MotionSettings;
+use crate::rapid::data::statement::{Statement, StatementKind};
+use crate::rapid::data::unread::Unresolved;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::names::At;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
@@ -34,9 +37,8 @@ pub(crate) struct Written<'a> {
     pub(crate) parts: BTreeMap<usize, String>,
     pub(crate) types: OwnTypes,
     pub(crate) moves: Vec<WrittenMove<'a>>,
-    pub(crate) skipped: Vec<Skipped>,
+    pub(crate) statements: Vec<Statement>,
     pub(crate) faults: Faults<'a>,
-    pub(crate) settings: Vec<Setting>,
     pub(crate) assignments: Vec<Assignment<'a>>,
     pub(crate) scopes: Scopes,
     pub(crate) blocks: Blocks<'a>,
@@ -46,9 +48,9 @@ pub(crate) struct Written<'a> {
 /// A statement that gives a datum another value.
 pub(crate) struct Assignment<'a> {
     pub(crate) at: At,
-    pub(crate) name: &'a str,
+    pub(crate) name: Name<'a>,
     /// The component that gets the value; none for the whole datum.
-    pub(crate) components: Vec<&'a str>,
+    pub(crate) components: Vec<Name<'a>>,
     pub(crate) line: usize,
 }
 
@@ -123,31 +125,31 @@ impl<'a> StatementReader<'a> {
         Err(self.tokens.fault(at.start, kind))
     }
 
-    /// List the text from a token to here as not read, or as unfinished if it contains a
+    /// List the text from a token to here as a statement, or as unfinished if it contains a
     /// placeholder. Returns its line.
-    pub(super) fn skip(&mut self, from: Token, what: NotRead) -> usize {
-        let (line, column) = self.tokens.line_and_column(from.start);
-        let what = if self.tokens.unfinished_since(from.start) {
-            NotRead::Unfinished { statement: self.tokens.text_of(from).to_string() }
-        } else {
-            what
-        };
+    pub(super) fn add(&mut self, from: Token, kind: StatementKind) -> usize {
+        if self.tokens.unfinished_since(from.start) {
+            return self.add_unfinished(from);
+        }
         let text = self.written.text[from.start..self.tokens.last_end].to_string();
-        self.skip_as((line, column, from.start), what, text);
+        self.add_at(from.start, kind, text)
+    }
+
+    /// List a statement at a byte. Returns its line.
+    pub(super) fn add_at(&mut self, start: usize, kind: StatementKind, text: String) -> usize {
+        let (line, column) = self.tokens.line_and_column(start);
+        let name = self.current_routine().map(|routine| routine.name.as_str());
+        let last = self.written.statements.last().and_then(|it| it.routine.clone());
+        let routine = last.filter(|last| Some(&**last) == name).or_else(|| name.map(Arc::from));
+        self.written.statements.push(Statement { line, column, routine, kind, text, start });
         line
     }
 
-    /// List a text at a line, a column and a byte as not read.
-    pub(super) fn skip_as(&mut self, place: (usize, usize, usize), what: NotRead, text: String) {
-        let routine = self.current_routine().map(|routine| routine.name.clone());
-        let (line, column, start) = place;
-        self.written.skipped.push(Skipped { line, column, routine, what, text, start });
-    }
-
-    /// List the text from a token to here as unfinished.
-    pub(super) fn skip_unfinished(&mut self, from: Token) {
+    /// List the text from a token to here as unfinished. Returns its line.
+    pub(super) fn add_unfinished(&mut self, from: Token) -> usize {
         let statement = self.tokens.text_of(from).to_string();
-        self.skip(from, NotRead::Unfinished { statement });
+        let text = self.written.text[from.start..self.tokens.last_end].to_string();
+        self.add_at(from.start, StatementKind::Unfinished { statement }, text)
     }
 }
 
@@ -202,12 +204,12 @@ impl Scopes {
 
     /// The components of data of records that a name in lower case and components refer to, with
     /// the components in them.
-    pub(crate) fn parts<'s>(
+    pub(crate) fn parts<'s, 'a>(
         &'s self,
         routine: usize,
         lower: &str,
-        components: &'s [&'s str],
-    ) -> Vec<(usize, &'s [&'s str])> {
+        components: &'s [Name<'a>],
+    ) -> Vec<(usize, &'s [Name<'a>])> {
         let is_local = self.names.get(routine).is_some_and(|scope| scope.contains_key(lower));
         let scope = self.names.get(if is_local { routine } else { 0 });
         let prefix = format!("{lower}.");

@@ -3,7 +3,7 @@
 use alloc::string::ToString;
 
 use super::reader::StatementReader;
-use crate::rapid::data::unread::NotRead;
+use crate::rapid::data::statement::{Flow, StatementKind};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::excerpt;
 use crate::rapid::text::skipping::{at_line, end_of_line, is_conflict_marker, next_statement};
@@ -30,27 +30,26 @@ impl StatementReader<'_> {
         let resumed = at_line.unwrap_or_else(|| next_statement(text, from));
         let end = first.start + text[first.start..resumed].trim_end().len();
         self.tokens.resume(end);
-        let what = if self.opens(first, end) {
-            NotRead::Flow { word: self.tokens.text_of(first).to_ascii_uppercase() }
-        } else {
-            let statement = excerpt(self.tokens.text_of(first));
-            NotRead::Invalid { statement, fault: words }
+        let word = self.tokens.text_of(first);
+        let kind = match self.opened(first, end) {
+            Some(flow) => StatementKind::Flow { word: word.to_ascii_uppercase(), flow },
+            None => StatementKind::Invalid { statement: excerpt(word), fault: words },
         };
         if end > first.start {
-            self.skip(first, what);
+            self.add(first, kind);
         }
         self.tokens.resume(resumed);
         Ok(())
     }
 
     /// Open the block that an invalid statement begins, if it does.
-    fn opens(&mut self, first: Token, end: usize) -> bool {
+    fn opened(&mut self, first: Token, end: usize) -> Option<Flow> {
         let (word, text) = (self.tokens.text_of(first), &self.tokens.text[first.start..end]);
         let is = |other: &str| word.eq_ignore_ascii_case(other);
         let begins = is("IF") && ends_with(text, "THEN")
             || (is("FOR") || is("WHILE")) && ends_with(text, "DO")
             || is("TEST") && !text.ends_with(';');
-        begins && self.written.blocks.open(word)
+        if begins { self.written.blocks.open(word) } else { None }
     }
 
     /// Report and close what is open where something else begins.
@@ -67,12 +66,8 @@ impl StatementReader<'_> {
     pub(super) fn close_blocks(&mut self, outer: usize, before: usize) {
         while self.written.blocks.depth() > outer {
             let Some(end) = self.written.blocks.close_innermost() else { return };
-            let (line, column) = self.tokens.line_and_column(before);
-            self.skip_as(
-                (line, column, before),
-                NotRead::Flow { word: end.to_string() },
-                end.to_string(),
-            );
+            let kind = StatementKind::Flow { word: end.to_string(), flow: Flow::End };
+            self.add_at(before, kind, end.to_string());
         }
     }
 

@@ -12,7 +12,8 @@ use super::parts::DatumPart;
 use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
 use super::recovery::skip_to_end;
 use crate::rapid::data::module::{Module, Parameter, Routine, RoutineKind, Scope};
-use crate::rapid::data::unread::{NotRead, Unresolved};
+use crate::rapid::data::statement::StatementKind;
+use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::DataType;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind};
@@ -192,14 +193,16 @@ impl<'a> StatementReader<'a> {
             }
             Declaration::Unread { name, type_name, parts } => {
                 let type_name = type_name.to_string();
-                let what =
-                    NotRead::DatumOfType { name: name.to_string(), type_name: type_name.clone() };
-                self.skip(first, what);
+                let what = StatementKind::DatumOfType {
+                    name: name.to_string(),
+                    type_name: type_name.clone(),
+                };
+                self.add(first, what);
                 self.declare(first, name, Named::Other(Unresolved::OtherType { type_name }))?;
                 self.add_parts(name, parts);
             }
             Declaration::Unfinished { name } => {
-                self.skip_unfinished(first);
+                self.add_unfinished(first);
                 self.declare(first, name, Named::Other(Unresolved::Unfinished))?;
             }
         }
@@ -230,8 +233,8 @@ impl<'a> StatementReader<'a> {
             let Some(outer) = outer else { return Ok(()) };
             self.close_blocks(outer + 1, token.start);
         }
-        self.written.blocks.read(&mut self.tokens, word, token)?;
-        self.skip(token, NotRead::Flow { word: word.to_string() });
+        let flow = self.written.blocks.read(&mut self.tokens, word, token)?;
+        self.add(token, StatementKind::Flow { word: word.to_string(), flow });
         Ok(())
     }
 }
@@ -290,7 +293,7 @@ impl StatementReader<'_> {
         if !skip_to_end(&mut self.tokens, kind.end())? {
             return Err(self.not_ended(format!("{} {name}", kind.name()), kind.end()));
         }
-        self.skip_unfinished(first);
+        self.add_unfinished(first);
         Ok(())
     }
 

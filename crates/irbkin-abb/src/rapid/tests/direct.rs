@@ -6,7 +6,6 @@ use std::vec::Vec;
 
 use super::*;
 use crate::Error;
-use crate::rapid::data::unread::NotRead;
 use crate::rapid::text::fault::RapidFaultKind;
 
 /// The types with the shapes of their values: `n` a number, `w` a whole one, `b` a truth value, `s`
@@ -89,7 +88,7 @@ const LITERALS: [&str; 58] = [
 ];
 
 /// The error for a text, or the content of its only datum and why it is not read.
-fn outcome(text: &str) -> Result<(Vec<Value>, Vec<NotRead>), RapidFaultKind> {
+fn outcome(text: &str) -> Result<(Vec<Value>, Vec<String>), RapidFaultKind> {
     let module = match parse(text, &[]) {
         Ok(module) => module,
         Err(Error::Rapid(fault)) => return Err(fault.kind),
@@ -100,7 +99,7 @@ fn outcome(text: &str) -> Result<(Vec<Value>, Vec<NotRead>), RapidFaultKind> {
         Some(Content::Array { values, .. }) => values.clone(),
         _ => Vec::new(),
     };
-    Ok((values, module.skipped().iter().map(|skipped| skipped.what.clone()).collect()))
+    Ok((values, module.skipped().iter().map(|skipped| skipped.what()).collect()))
 }
 
 #[test]

@@ -22,7 +22,7 @@ use std::string::ToString;
 use std::vec::Vec;
 
 use super::data::unread::Reason;
-use super::{Content, Module, Skipped, Value, parse};
+use super::{Content, Module, Value, parse};
 
 fn read(text: &str) -> Module {
     parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -47,7 +47,7 @@ fn number(module: &Module, name: &str) -> f64 {
 }
 
 fn not_read(module: &Module) -> Vec<String> {
-    module.skipped().iter().map(|Skipped { what, .. }| what.to_string()).collect()
+    module.skipped().iter().map(|it| it.what()).collect()
 }
 
 /// The words of the reason why a value is unknown; empty if it is known.

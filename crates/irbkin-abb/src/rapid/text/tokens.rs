@@ -1,5 +1,6 @@
 //! RAPID text as tokens: names, numbers, strings and symbols, without blanks and comments.
 
+use alloc::borrow::Cow;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::cell::Cell;
@@ -198,10 +199,10 @@ impl<'a> Tokens<'a> {
     }
 
     /// The names of components, each behind its point.
-    pub(crate) fn components(&mut self) -> Result<Vec<&'a str>, RapidFault> {
+    pub(crate) fn components(&mut self) -> Result<Vec<Cow<'a, str>>, RapidFault> {
         let mut components = Vec::new();
         while let Some(component) = self.component()? {
-            components.push(component);
+            components.push(component.into());
         }
         Ok(components)
     }

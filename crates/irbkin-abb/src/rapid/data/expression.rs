@@ -1,14 +1,18 @@
 //! Expressions as they are written: a tree with the bytes of each part, before names are looked up.
 
+use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::rapid::data::unread::Reason;
+use super::unread::Reason;
 use crate::rapid::text::place::excerpt;
 
+/// A name in an expression: of the text that is read or, in a module, its own.
+pub(crate) type Name<'a> = Cow<'a, str>;
+
 /// An expression and the bytes that it takes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Expression<'a> {
     pub(crate) start: usize,
     pub(crate) end: usize,
@@ -17,24 +21,30 @@ pub(crate) struct Expression<'a> {
 
 impl<'a> Expression<'a> {
     /// The name, the indices and the components of a reference.
-    pub(crate) fn reference(&self) -> Option<(&'a str, &[Self], &[&'a str])> {
+    pub(crate) fn reference(&self) -> Option<(&Name<'a>, &[Self], &[Name<'a>])> {
         match &self.form {
             Form::Name(name) => Some((name, &[], &[])),
-            Form::Reference(it) => Some((it.name, &it.indices, &it.components)),
+            Form::Reference(it) => Some((&it.name, &it.indices, &it.components)),
             _ => None,
         }
     }
 
+    /// The name in lower case that it refers to, with its components, joined by dots.
+    pub(crate) fn referred(&self) -> Option<(String, String)> {
+        let (name, _, components) = self.reference()?;
+        Some((name.to_lowercase(), components.join(".").to_lowercase()))
+    }
+
     /// Add the names that it refers to, of functions too.
-    pub(crate) fn collect_names(&self, names: &mut Vec<&'a str>) {
+    pub(crate) fn collect_names(&self, names: &mut Vec<Name<'a>>) {
         match &self.form {
-            Form::Name(name) => names.push(name),
+            Form::Name(name) => names.push(name.clone()),
             Form::Reference(it) => {
-                names.push(it.name);
+                names.push(it.name.clone());
                 it.indices.iter().for_each(|index| index.collect_names(names));
             }
             Form::Call(call) => {
-                names.push(call.name);
+                names.push(call.name.clone());
                 call.arguments.required.iter().for_each(|it| it.collect_names(names));
                 let optional =
                     call.arguments.optional.iter().filter_map(|(_, value)| value.as_ref());
@@ -52,18 +62,62 @@ impl<'a> Expression<'a> {
             _ => {}
         }
     }
+
+    /// The expression with its own names, and with its bytes counted from `begin`.
+    pub(crate) fn owned(self, begin: usize) -> Expression<'static> {
+        let boxed = |it: Box<Self>| Box::new(it.owned(begin));
+        let form = match self.form {
+            Form::Number(value) => Form::Number(value),
+            Form::Text(text) => Form::Text(owned(text)),
+            Form::Bool(value) => Form::Bool(value),
+            Form::Aggregate(parts) => Form::Aggregate(all_owned(parts, begin)),
+            Form::Name(name) => Form::Name(owned(name)),
+            Form::Reference(it) => Form::Reference(Box::new(Reference {
+                name: owned(it.name),
+                indices: all_owned(it.indices, begin),
+                components: it.components.into_iter().map(owned).collect(),
+            })),
+            Form::Call(call) => Form::Call(Box::new(Call {
+                name: owned(call.name),
+                arguments: call.arguments.owned(begin),
+                components: call.components.into_iter().map(owned).collect(),
+            })),
+            Form::Negated(operand) => Form::Negated(boxed(operand)),
+            Form::Chain(first, rest) => {
+                let rest = rest.into_iter().map(|(operator, it)| (operator, it.owned(begin)));
+                Form::Chain(boxed(first), rest.collect())
+            }
+            Form::Not(operand) => Form::Not(boxed(operand)),
+            Form::Compared(operands, relation) => {
+                Form::Compared(Box::new(operands.map(|it| it.owned(begin))), relation)
+            }
+            Form::Star => Form::Star,
+            Form::Unread(reason) => Form::Unread(reason),
+        };
+        Expression { start: self.start - begin, end: self.end - begin, form }
+    }
+}
+
+fn owned(name: Name<'_>) -> Name<'static> {
+    Cow::Owned(name.into_owned())
+}
+
+fn all_owned(expressions: Vec<Expression<'_>>, begin: usize) -> Vec<Expression<'static>> {
+    let mut all: Vec<_> = expressions.into_iter().map(|it| it.owned(begin)).collect();
+    all.shrink_to_fit();
+    all
 }
 
 /// The form of an expression.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form<'a> {
     Number(f64),
     /// With its quotes.
-    Text(&'a str),
+    Text(Name<'a>),
     Bool(bool),
     Aggregate(Vec<Expression<'a>>),
     /// A name by itself, the most frequent reference.
-    Name(&'a str),
+    Name(Name<'a>),
     Reference(Box<Reference<'a>>),
     Call(Box<Call<'a>>),
     Negated(Box<Expression<'a>>),
@@ -78,30 +132,37 @@ pub(crate) enum Form<'a> {
 }
 
 /// A name, perhaps with indices, perhaps with components.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Reference<'a> {
-    pub(crate) name: &'a str,
+    pub(crate) name: Name<'a>,
     pub(crate) indices: Vec<Expression<'a>>,
-    pub(crate) components: Vec<&'a str>,
+    pub(crate) components: Vec<Name<'a>>,
 }
 
 /// A function with its arguments.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Call<'a> {
-    pub(crate) name: &'a str,
+    pub(crate) name: Name<'a>,
     pub(crate) arguments: Arguments<'a>,
     /// Components of the result.
-    pub(crate) components: Vec<&'a str>,
+    pub(crate) components: Vec<Name<'a>>,
 }
 
 /// The arguments of a function, an instruction or a call.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Arguments<'a> {
     pub(crate) required: Vec<Expression<'a>>,
-    pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
+    pub(crate) optional: Vec<(Name<'a>, Option<Expression<'a>>)>,
 }
 
 impl<'a> Arguments<'a> {
+    /// The arguments with their own names, and with their bytes counted from `begin`.
+    pub(crate) fn owned(self, begin: usize) -> Arguments<'static> {
+        let optional = self.optional.into_iter();
+        let optional = optional.map(|(name, value)| (owned(name), value.map(|it| it.owned(begin))));
+        Arguments { required: all_owned(self.required, begin), optional: optional.collect() }
+    }
+
     /// The value of the first optional argument that has this name, in any case, and a value.
     pub(crate) fn value(&self, name: &str) -> Option<&Expression<'a>> {
         let mut named = self.optional.iter().filter(|(own, _)| own.eq_ignore_ascii_case(name));
