@@ -43,8 +43,9 @@ pub(crate) enum StatementKind {
     /// A move, by its index in the module.
     #[error("it moves the robot")]
     Move(usize),
-    #[error("{} sets how moves are made", .0.name)]
-    Setting(Setting),
+    /// An instruction that sets how the moves after it are made.
+    #[error("{} sets how moves are made", .0.word)]
+    Setting(Box<Instruction>),
     /// A line that begins, divides or ends a branch, a loop or a handler, by its word in capitals.
     #[error("{word} is not executed")]
     Flow { word: String, flow: Flow },
@@ -64,7 +65,7 @@ pub(crate) enum StatementKind {
     Invalid { statement: String, fault: String },
     /// A datum of a type that is read, whose value is unknown.
     #[error("{name}: {reason}")]
-    Datum { name: String, reason: Reason },
+    Datum { name: String, reason: Box<Reason> },
     #[error("{name}: type {type_name} is not read")]
     DatumOfType { name: String, type_name: String },
     #[error("RECORD {name} is not read")]
@@ -82,13 +83,6 @@ impl StatementKind {
             _ => "",
         }
     }
-}
-
-/// An instruction that sets how the moves after it are made, with its switch.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Setting {
-    pub(crate) name: String,
-    pub(crate) switch: Option<String>,
 }
 
 /// An assignment.
@@ -157,7 +151,7 @@ pub(crate) enum Flow {
     /// FOR or WHILE.
     Loop {
         condition: Condition,
-        counter: Option<Counter>,
+        counter: Option<Box<Counter>>,
     },
     End,
     Handler,
@@ -169,8 +163,8 @@ pub(crate) struct Counter {
     /// Its name in lower case.
     pub(crate) variable: String,
     /// From and to.
-    pub(crate) bounds: Box<[Expression<'static>; 2]>,
-    pub(crate) step: Option<Box<Expression<'static>>>,
+    pub(crate) bounds: [Expression<'static>; 2],
+    pub(crate) step: Option<Expression<'static>>,
 }
 
 /// A condition of a part of a branch, or of a loop, as far as it is evaluated.

@@ -28,7 +28,7 @@ impl<'m> Walk<'_, 'm> {
         let name = &counter.variable;
         let before = self.state.locals.get(name).cloned();
         let bounds = counter.bounds.each_ref().map(|bound| self.number(&head.text, bound));
-        let step = counter.step.as_deref().map(|step| self.number(&head.text, step));
+        let step = counter.step.as_ref().map(|step| self.number(&head.text, step));
         let passes = values_of(bounds, step.flatten());
         if !passes.is_empty() && self.affords(passes.len(), body) && (self.is_one || is_counted) {
             let depth = self.passes.len();

@@ -8,7 +8,9 @@ use core::mem;
 use crate::rapid::data::expression::Expression;
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::statement::{Condition, Counter, Flow, Setting, Statement, StatementKind};
+use crate::rapid::data::statement::{
+    Condition, Counter, Flow, Instruction, Statement, StatementKind,
+};
 use crate::rapid::text::words::words_of;
 
 /// Statements in the order of the text.
@@ -18,7 +20,7 @@ pub(super) type Block<'m> = Vec<Node<'m>>;
 pub(super) enum Node<'m> {
     /// A move, by its index in the module.
     Move(usize, &'m Move),
-    Setting(&'m Setting),
+    Setting(&'m Instruction),
     Other(&'m Statement),
     /// IF or TEST, by its first line; of TEST with what is tested.
     Branches {
@@ -158,7 +160,7 @@ impl<'m> Grower<'m> {
         let Some(mut open) = self.open.pop() else { return };
         let head = open.head;
         if let Flow::Loop { condition, counter } = open.flow {
-            let (body, counter) = (open.part, counter.as_ref());
+            let (body, counter) = (open.part, counter.as_deref());
             let is_counted = counter.is_some_and(|it| mentions(&body, &it.variable));
             return self.push(Node::Loop { head, condition, counter, is_counted, body });
         }

@@ -24,7 +24,7 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Storage;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::records::GivenTools;
-use crate::rapid::data::statement::{Condition, Instruction, Setting, Statement, StatementKind};
+use crate::rapid::data::statement::{Condition, Instruction, Statement, StatementKind};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::names::lower;
@@ -118,7 +118,9 @@ impl<'m> Walk<'_, 'm> {
             }
             match node {
                 Node::Move(index, step) => self.step(*index, step),
-                Node::Setting(setting) => self.set(setting),
+                Node::Setting(setting) => {
+                    self.state.settings.set(setting);
+                }
                 Node::Other(statement) => self.statement(statement),
                 Node::Branches { head, tested, parts } => {
                     if self.is_one && parts.iter().any(|part| self.acts(&part.block)) {
@@ -280,10 +282,6 @@ impl<'m> Walk<'_, 'm> {
         let finding = Finding::new(Code::NeverRun, "is never executed: the routine is left before");
         self.notes.push(finding.at(step, 0).in_module(self.frame.module));
         true
-    }
-
-    fn set(&mut self, setting: &Setting) {
-        self.state.settings.set(&setting.name, setting.switch.as_deref());
     }
 
     /// A move, with the values that it has here.

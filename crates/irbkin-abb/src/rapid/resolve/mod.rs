@@ -3,6 +3,7 @@
 mod moves;
 pub(crate) mod resolver;
 
+use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
@@ -137,7 +138,7 @@ impl ResolvedData {
         let placed = match content {
             Ok(placed) => placed,
             Err(reason) => {
-                let kind = StatementKind::Datum { name, reason };
+                let kind = StatementKind::Datum { name, reason: Box::new(reason) };
                 let text = source(declared.start..declared.end);
                 let Declared { line, column, start, .. } = *declared;
                 let routine = routine.map(Arc::from);

@@ -95,13 +95,13 @@ impl<'a> Blocks<'a> {
                 let to = operand(tokens, begin)?;
                 let mut step = None;
                 if tokens.take_word("STEP")? {
-                    step = Some(Box::new(operand(tokens, begin)?));
+                    step = Some(operand(tokens, begin)?);
                 }
                 demand_word(tokens, "DO")?;
                 self.loops.push((variable, self.innermost_loop()));
                 self.begin(tokens, 1, Some(self.loops.len() - 1), token)?;
-                let (variable, bounds) = (variable.to_lowercase(), Box::new([from, to]));
-                let counter = Some(Counter { variable, bounds, step });
+                let (variable, bounds) = (variable.to_lowercase(), [from, to]);
+                let counter = Some(Box::new(Counter { variable, bounds, step }));
                 Flow::Loop { condition: Condition::Other, counter }
             }
             "WHILE" => {

@@ -15,7 +15,7 @@ use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::moving::MoveInstruction;
-use crate::rapid::data::statement::{self, Instruction, Setting, StatementKind};
+use crate::rapid::data::statement::{self, Instruction, StatementKind};
 use crate::rapid::data::types::Type;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::reader::{ExpressionReader, note};
@@ -71,12 +71,7 @@ impl<'a> StatementReader<'a> {
         let place = (!instruction.is_basic()).then(|| written_argument(instruction.name)).flatten();
         let written = place.and_then(|place| step.arguments.required.get(place - 1));
         if let Some((name, ..)) = written.and_then(Expression::reference) {
-            self.written.assignments.push(Assignment {
-                at,
-                name: name.clone(),
-                components: Vec::new(),
-                line: step.line,
-            });
+            self.assign(name.clone(), Vec::new(), step.line);
         }
         let settings = self.settings;
         let kind = StatementKind::Move(self.written.moves.len());
@@ -101,9 +96,6 @@ impl<'a> StatementReader<'a> {
             // With or without a semicolon.
             self.tokens.take_if(b';')?;
             self.add_unfinished(first);
-            return Ok(());
-        }
-        if self.setting(first)? {
             return Ok(());
         }
         self.call(first, Some(first))
@@ -131,8 +123,7 @@ impl<'a> StatementReader<'a> {
             value: value.owned(first.start),
         };
         let line = self.add(first, StatementKind::Assignment(Box::new(assignment)));
-        let (at, name) = (self.at(), name.into());
-        self.written.assignments.push(Assignment { at, name, components, line });
+        self.assign(name.into(), components, line);
         Ok(())
     }
 
@@ -195,45 +186,29 @@ impl<'a> StatementReader<'a> {
         let first_word = self.tokens.text_of(first);
         let instruction = Instruction::new(first_word, name, arguments.owned(first.start));
         let effect = instruction.effect;
-        let line = self.add(first, StatementKind::Instruction(Box::new(instruction)));
+        let is_read = effect == Effect::Sets && self.settings.set(&instruction);
+        let of = if is_read { StatementKind::Setting } else { StatementKind::Instruction };
+        let line = self.add(first, of(Box::new(instruction)));
         match effect {
             Effect::Displaces(Shift::Off) => self.displaced_by = None,
             Effect::Displaces(_) => self.displaced_by = Some(line),
             _ => {}
         }
         if let Some(name) = assigned {
-            let (at, components) = (self.at(), Vec::new());
-            self.written.assignments.push(Assignment { at, name, components, line });
+            self.assign(name, Vec::new(), line);
         }
         Ok(())
+    }
+
+    /// Note that a datum gets another value.
+    fn assign(&mut self, name: Name<'a>, components: Vec<Name<'a>>, line: usize) {
+        let at = self.at();
+        self.written.assignments.push(Assignment { at, name, components, line });
     }
 
     /// Read the end of a statement.
     fn end(&mut self, wanted: &'static str) -> Result<(), RapidFault> {
         end_statement(&mut self.tokens, &mut self.written.faults, wanted)
-    }
-
-    /// Read an instruction that sets how moves are made, whose name is already read. False, with
-    /// nothing read, for another instruction or one that is not as RAPID has it.
-    fn setting(&mut self, first: Token) -> Result<bool, RapidFault> {
-        let name = self.tokens.text_of(first);
-        if Effect::of(name) != Effect::Sets {
-            return Ok(false);
-        }
-        let mark = self.tokens.mark();
-        let mut switch = None;
-        if self.tokens.take_if(b'\\')? && self.tokens.peek().kind == TokenKind::Name {
-            let token = self.tokens.take()?;
-            switch = Some(self.tokens.text_of(token));
-        }
-        if !self.tokens.peek().is(b';') || !self.settings.set(name, switch) {
-            self.tokens.rewind(mark);
-            return Ok(false);
-        }
-        self.tokens.take()?;
-        let setting = Setting { name: name.to_string(), switch: switch.map(String::from) };
-        self.add(first, StatementKind::Setting(setting));
-        Ok(true)
     }
 }
 

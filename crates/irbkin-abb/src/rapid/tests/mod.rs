@@ -13,6 +13,7 @@ mod place;
 mod program;
 mod records;
 mod recovery;
+mod statements;
 mod texts;
 mod unfinished;
 mod whole;
