@@ -55,7 +55,7 @@ fn main() -> Result<(), Error> {
     let module = rapid::parse(MODULE, &[])?;
     println!("pick_and_place.mod: {} data, {} moves", module.data().len(), module.moves().len());
     for part in module.skipped() {
-        println!("  line {}: {}", part.line, part.what);
+        println!("  line {}: {}", part.line, part.what());
     }
 
     println!("\nas read: CalcJointT of every target");

@@ -13,7 +13,7 @@ use crate::rapid::data::statement::{Statement, StatementKind};
 use crate::rapid::data::table::Entry;
 use crate::rapid::expression::names::predefined_names;
 use crate::rapid::text::fault::RapidFaultKind;
-use crate::rapid::text::tokens::{Called, Tokens};
+use crate::rapid::text::tokens::Tokens;
 use irbkin::{Interrupt, Interrupted};
 
 /// Longest parameters of a routine that calls are compared with [bytes]: each call reads them.
@@ -83,7 +83,7 @@ pub(super) fn undeclared(
             let written = source.get(call.name.clone()).unwrap_or_default();
             // A call by name may name the module, too.
             let name = written.rsplit(':').next().unwrap_or(written);
-            let place = begin(source, call);
+            let place = call.start;
             let lower = name.to_lowercase();
             let all = routines.get(&lower).map_or(&[][..], Vec::as_slice);
             let own = all.iter().find(|(home, _)| *home == index);
@@ -172,13 +172,6 @@ fn unknown_routine(name: &str, elsewhere: Option<&str>) -> Finding {
             ..Finding::new(Code::UnknownRoutine, "nothing declares it")
         },
     }
-}
-
-/// The first byte of a call; of one by a constant name its percent sign.
-fn begin(source: &str, call: &Called) -> usize {
-    let start = call.name.start;
-    let ahead = source[..start].strip_suffix('"').map(str::trim_ascii_end);
-    ahead.and_then(|it| it.strip_suffix('%')).map_or(start, str::len)
 }
 
 /// The statement that begins at a byte, without its semicolon.

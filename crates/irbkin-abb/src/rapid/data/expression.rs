@@ -46,8 +46,7 @@ impl<'a> Expression<'a> {
             Form::Call(call) => {
                 names.push(call.name.clone());
                 call.arguments.required.iter().for_each(|it| it.collect_names(names));
-                let optional =
-                    call.arguments.optional.iter().filter_map(|(_, value)| value.as_ref());
+                let optional = call.arguments.optional.iter().filter_map(|it| it.value.as_ref());
                 optional.for_each(|it| it.collect_names(names));
             }
             Form::Aggregate(parts) => parts.iter().for_each(|it| it.collect_names(names)),
@@ -152,21 +151,39 @@ pub(crate) struct Call<'a> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Arguments<'a> {
     pub(crate) required: Vec<Expression<'a>>,
-    pub(crate) optional: Vec<(Name<'a>, Option<Expression<'a>>)>,
+    pub(crate) optional: Vec<Optional<'a>>,
+}
+
+/// An optional argument: a switch without a value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Optional<'a> {
+    pub(crate) name: Name<'a>,
+    pub(crate) value: Option<Expression<'a>>,
+    /// Number of required arguments before it.
+    pub(crate) after: usize,
+}
+
+impl Optional<'_> {
+    /// Whether it has a name, in any case.
+    pub(crate) fn is(&self, name: &str) -> bool {
+        self.name.eq_ignore_ascii_case(name)
+    }
 }
 
 impl<'a> Arguments<'a> {
     /// The arguments with their own names, and with their bytes counted from `begin`.
     pub(crate) fn owned(self, begin: usize) -> Arguments<'static> {
-        let optional = self.optional.into_iter();
-        let optional = optional.map(|(name, value)| (owned(name), value.map(|it| it.owned(begin))));
+        let optional = self.optional.into_iter().map(|it| Optional {
+            name: owned(it.name),
+            value: it.value.map(|it| it.owned(begin)),
+            after: it.after,
+        });
         Arguments { required: all_owned(self.required, begin), optional: optional.collect() }
     }
 
     /// The value of the first optional argument that has this name, in any case, and a value.
     pub(crate) fn value(&self, name: &str) -> Option<&Expression<'a>> {
-        let mut named = self.optional.iter().filter(|(own, _)| own.eq_ignore_ascii_case(name));
-        named.find_map(|(_, value)| value.as_ref())
+        self.optional.iter().filter(|it| it.is(name)).find_map(|it| it.value.as_ref())
     }
 }
 

@@ -133,6 +133,8 @@ pub struct Routine {
     /// Column, from 1, in characters; 0 if it was not read from a text.
     pub column: usize,
     pub(crate) parameters: Vec<Parameter>,
+    /// The type of what a function returns, if it is read.
+    pub(crate) data_type: Option<DataType>,
 }
 
 /// A parameter of a routine.

@@ -66,15 +66,15 @@ impl MotionSettings {
     /// Set what an instruction sets by its switch; without one it sets the default. Returns whether
     /// there is such an instruction and such a switch.
     pub(crate) fn set(&mut self, instruction: &Instruction) -> bool {
-        let Arguments { required, optional } = &instruction.arguments;
-        let switch = match (required.as_slice(), optional.as_slice()) {
-            ([], []) => None,
-            ([], [(switch, None)]) => Some(&**switch),
-            _ => return false,
-        };
         fn put<T>(place: &mut T, value: Option<T>) -> bool {
             value.map(|value| *place = value).is_some()
         }
+        let Arguments { required, optional } = &instruction.arguments;
+        let switch = match (required.as_slice(), optional.as_slice()) {
+            ([], []) => None,
+            ([], [switch]) if switch.value.is_none() => Some(&*switch.name),
+            _ => return false,
+        };
         let is_on = match switch.map(str::to_ascii_lowercase).as_deref() {
             None | Some("on") => Some(true),
             Some("off") => Some(false),

@@ -259,14 +259,14 @@ impl Evaluator<'_, '_> {
         let required = required.map(|(argument, of)| self.atoms(argument, of));
         let required = required.collect::<Result<Vec<_>, _>>()?;
         let mut optional: Vec<_> = function.optional.iter().map(|_| None).collect();
-        for (argument, value) in &call.arguments.optional {
-            let is = |(own, _): &&(&str, Option<&'static Type>)| own.eq_ignore_ascii_case(argument);
-            let own = function.optional.iter().zip(&mut optional).find(|(own, _)| is(own));
-            let atoms = match (own.as_ref().map(|((_, of), _)| *of), value) {
+        for argument in &call.arguments.optional {
+            let mut all = function.optional.iter().zip(&mut optional);
+            let own = all.find(|((name, _), _)| argument.is(name));
+            let atoms = match (own.as_ref().map(|((_, of), _)| *of), &argument.value) {
                 (Some(Some(of)), Some(value)) => self.atoms(value, of)?,
                 (Some(None), None) => Atoms::new(),
                 _ => {
-                    let (name, argument) = (call.name.to_string(), argument.to_string());
+                    let (name, argument) = (call.name.to_string(), argument.name.to_string());
                     return Err(Reason::FunctionArgument { name, argument }.into());
                 }
             };

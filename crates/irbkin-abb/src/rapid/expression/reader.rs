@@ -5,7 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::rapid::data::expression::{
-    Arguments, Call, Expression, Form, Name, Operator, Reference, Relation,
+    Arguments, Call, Expression, Form, Name, Operator, Optional, Reference, Relation,
 };
 use crate::rapid::data::fit::misfit;
 use crate::rapid::data::table::Entry;
@@ -208,7 +208,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
     }
 
-    pub(crate) fn sum(&mut self) -> Result<Expression<'a>, RapidFault> {
+    fn sum(&mut self) -> Result<Expression<'a>, RapidFault> {
         let operator = |tokens: &Tokens<'_>| match tokens.peek().kind {
             TokenKind::Symbol(b'+') => Some(Operator::Plus),
             TokenKind::Symbol(b'-') => Some(Operator::Minus),
@@ -356,7 +356,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         let name = self.tokens.text_of(token);
         let arguments = self.arguments()?;
         self.close(open, b')')?;
-        note(self.tokens, token, true, &arguments);
+        note(self.tokens, token.start, token, true, &arguments);
         Ok(Call { name: name.into(), arguments, components: self.tokens.components()? })
     }
 
@@ -375,7 +375,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
                 self.tokens.take_if(b',')?;
             }
             if self.tokens.take_if(b'\\')? {
-                found.optional.push(self.optional()?);
+                let (name, value) = self.optional()?;
+                found.optional.push(Optional { name, value, after: found.required.len() });
             } else {
                 found.required.push(self.argument()?);
             }
@@ -391,7 +392,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     }
 
     /// `Name`, `Name:=value` or `Name?parameter`; the backslash is already read.
-    pub(crate) fn optional(&mut self) -> Result<(Name<'a>, Option<Expression<'a>>), RapidFault> {
+    fn optional(&mut self) -> Result<(Name<'a>, Option<Expression<'a>>), RapidFault> {
         let name = self.tokens.take_option_name()?.into();
         // \Name?parameter passes on the caller's own argument, if there is one; the question mark
         // belongs to the value.
@@ -409,10 +410,11 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     }
 }
 
-/// Note a call of a routine that RAPID does not have, or does not have with these arguments; `name`
-/// may be the text of a call by name.
+/// Note a call that begins at a byte, of a routine that RAPID does not have, or does not have with
+/// these arguments; `name` may be the text of a call by name.
 pub(crate) fn note(
     tokens: &mut Tokens<'_>,
+    start: usize,
     name: Token,
     is_function: bool,
     arguments: &Arguments<'_>,
@@ -422,11 +424,11 @@ pub(crate) fn note(
     let text = &tokens.text[name.clone()];
     let entry = if is_function { Entry::function(text) } else { Entry::instruction(text) };
     let required = arguments.required.len();
-    let given = arguments.optional.iter().map(|(name, value)| (&**name, value.is_some()));
+    let given = arguments.optional.iter().map(|it| (&*it.name, it.value.is_some()));
     let of_entry = |it: &Entry| misfit((it.name, it.arguments), required, given.clone());
     let wrong = entry.and_then(of_entry);
     if entry.is_none() || wrong.is_some() {
         let optional = given.map(|(name, has_value)| (String::from(name), has_value)).collect();
-        tokens.calls.push(Called { name, is_function, required, optional, wrong });
+        tokens.calls.push(Called { start, name, is_function, required, optional, wrong });
     }
 }

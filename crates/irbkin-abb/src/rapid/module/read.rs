@@ -258,6 +258,7 @@ fn routines(data: &[Datum], moves: &[Move]) -> Vec<Routine> {
         line: 0,
         column: 0,
         parameters: Vec::new(),
+        data_type: None,
     };
     names.map(procedure).collect()
 }

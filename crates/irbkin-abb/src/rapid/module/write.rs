@@ -11,7 +11,7 @@ use super::read::nowhere;
 use crate::Error;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::statement::{Statement, StatementKind};
+use crate::rapid::data::statement::StatementKind;
 use crate::rapid::data::types::are_finite;
 use crate::rapid::data::value::Value;
 use crate::rapid::text::fault::{Missing, RapidFault, RapidFaultKind};
@@ -54,7 +54,7 @@ impl fmt::Display for Datum {
 
 impl Datum {
     /// Write the declaration with its semicolon; an expression may replace the value.
-    fn write(&self, f: &mut fmt::Formatter<'_>, expression: Option<&str>) -> fmt::Result {
+    fn write(&self, f: &mut dyn fmt::Write, expression: Option<&str>) -> fmt::Result {
         if self.scope != Scope::Global {
             write!(f, "{} ", self.scope.name())?;
         }
@@ -138,59 +138,53 @@ impl fmt::Display for Move {
     }
 }
 
-/// An item of a module or of a routine.
-enum Item<'m> {
-    /// Perhaps with the expression that it is written with.
-    Datum(&'m Datum, Option<&'m str>),
-    /// With its move, if it is one.
-    Statement(&'m Statement, Option<&'m Move>),
-    Routine(&'m Routine),
+/// A line of a module or of a routine, in the module with the routine that it begins.
+struct Line<'m> {
+    /// Whether it is none of the data of a routine, which come first; line and column of the text.
+    place: (bool, usize, usize),
+    text: String,
+    begins: Option<&'m Routine>,
 }
 
-impl Item<'_> {
-    /// Line and column; items that were not read from a text come last. Data of a routine come
-    /// first.
-    fn key(&self, in_routine: bool) -> (bool, usize, usize) {
-        let (first, line, column) = match self {
-            Self::Datum(datum, _) => (in_routine, datum.line, datum.column),
-            Self::Statement(statement, _) => (false, statement.line, statement.column),
-            Self::Routine(routine) => (false, routine.line, routine.column),
-        };
-        (!first, if line == 0 { usize::MAX } else { line }, column)
-    }
-}
-
-/// The items of each routine, by its name in lower case; the module has the empty name.
-fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
-    let mut items: BTreeMap<String, Vec<Item<'_>>> = BTreeMap::new();
-    let mut add = |routine: Option<&str>, item| {
-        items.entry(routine.map(str::to_lowercase).unwrap_or_default()).or_default().push(item);
+/// The lines of each routine, by its name in lower case; the module has the empty name. What was
+/// not read from a text comes last.
+fn lines(module: &Module) -> Result<BTreeMap<String, Vec<Line<'_>>>, fmt::Error> {
+    let mut lines: BTreeMap<String, Vec<Line<'_>>> = BTreeMap::new();
+    let mut add = |routine: Option<&str>, (is_late, line, column), text, begins| {
+        let place = (is_late, if line == 0 { usize::MAX } else { line }, column);
+        let of = lines.entry(routine.map(str::to_lowercase).unwrap_or_default());
+        of.or_default().push(Line { place, text, begins });
     };
     for (i, datum) in module.data.iter().enumerate() {
-        add(
-            datum.routine.as_deref(),
-            Item::Datum(datum, module.expressions.get(&i).map(String::as_str)),
-        );
+        let mut text = String::new();
+        datum.write(&mut text, module.expressions.get(&i).map(String::as_str))?;
+        let routine = datum.routine.as_deref();
+        add(routine, (routine.is_none(), datum.line, datum.column), text, None);
     }
     for statement in &module.statements {
-        let step = match statement.kind {
-            StatementKind::Move(index) => module.moves.get(index),
+        let text = match statement.kind {
+            StatementKind::Move(index) => module.moves.get(index).map(ToString::to_string),
             _ => None,
         };
-        add(statement.routine.as_deref(), Item::Statement(statement, step));
+        let text = text.unwrap_or_else(|| statement.text.clone());
+        let routine = statement.routine.as_deref();
+        add(routine, (true, statement.line, statement.column), text, None);
     }
-    module.routines.iter().for_each(|routine| add(None, Item::Routine(routine)));
-    for (name, items) in &mut items {
-        items.sort_by_key(|item| item.key(!name.is_empty()));
+    for routine in &module.routines {
+        let place = (true, routine.line, routine.column);
+        add(None, place, routine.header.clone(), Some(routine));
     }
-    items
+    for of in lines.values_mut() {
+        of.sort_by_key(|line| line.place);
+    }
+    Ok(lines)
 }
 
 impl fmt::Display for Module {
     /// The module as a text that reads back as the same module: values as they are, without
     /// comments; values that refer to assigned data, and what was skipped, as written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let items = items(self);
+        let lines = lines(self)?;
         if let Some(name) = &self.name {
             write!(f, "MODULE {name}")?;
             if !self.attributes.is_empty() {
@@ -199,31 +193,15 @@ impl fmt::Display for Module {
             writeln!(f)?;
         }
         let margin = if self.name.is_some() { "    " } else { "" };
-        for item in items.get("").into_iter().flatten() {
-            let Item::Routine(routine) = item else {
-                write_item(f, margin, item)?;
-                continue;
-            };
-            writeln!(f, "{margin}{}", routine.header)?;
-            for item in items.get(&routine.name.to_lowercase()).into_iter().flatten() {
-                write_item(f, &format!("{margin}    "), item)?;
+        for Line { text, begins, .. } in lines.get("").into_iter().flatten() {
+            writeln!(f, "{margin}{text}")?;
+            let Some(routine) = begins else { continue };
+            for line in lines.get(&routine.name.to_lowercase()).into_iter().flatten() {
+                writeln!(f, "{margin}    {}", line.text)?;
             }
             writeln!(f, "{margin}{}", routine.kind.end())?;
         }
         if self.name.is_some() { writeln!(f, "ENDMODULE") } else { Ok(()) }
-    }
-}
-
-fn write_item(f: &mut fmt::Formatter<'_>, margin: &str, item: &Item<'_>) -> fmt::Result {
-    match item {
-        Item::Datum(datum, expression) => {
-            f.write_str(margin)?;
-            datum.write(f, *expression)?;
-            writeln!(f)
-        }
-        Item::Statement(_, Some(step)) => writeln!(f, "{margin}{step}"),
-        Item::Statement(statement, None) => writeln!(f, "{margin}{}", statement.text),
-        Item::Routine(_) => Ok(()),
     }
 }
 

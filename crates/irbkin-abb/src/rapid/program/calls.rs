@@ -15,7 +15,7 @@ use super::state::{Local, Locals, MOST_KNOWN};
 use super::values::Calls;
 use super::walker::Walk;
 use super::whole::Program;
-use crate::rapid::data::expression::{Arguments, Call, Expression, Name};
+use crate::rapid::data::expression::{Arguments, Call, Expression};
 use crate::rapid::data::module::{Content, Parameter, Storage};
 use crate::rapid::data::statement::{Instruction, Statement};
 use crate::rapid::data::unread::{Reason, Unresolved};
@@ -240,9 +240,8 @@ impl<'m> Walk<'_, 'm> {
         let mut required = arguments.required.iter();
         for parameter in parameters {
             let argument = if parameter.is_optional {
-                let is_own =
-                    |(name, _): &&(Name<'_>, _)| name.eq_ignore_ascii_case(&parameter.name);
-                arguments.optional.iter().find(is_own).map(|(_, value)| value.as_ref())
+                let own = arguments.optional.iter().find(|it| it.is(&parameter.name));
+                own.map(|it| it.value.as_ref())
             } else {
                 required.next().map(Some)
             };

@@ -10,7 +10,7 @@ use core::ops::Range;
 
 use super::index::{DatumId, Index};
 use super::tree::{Block, Node};
-use crate::rapid::data::expression::Expression;
+use crate::rapid::data::expression::Arguments;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Parameter;
@@ -77,20 +77,19 @@ impl Assigned {
     }
 }
 
-/// A call of a procedure, with the name that each argument refers to.
-struct Call {
+/// A call of a procedure.
+struct Call<'m> {
     line: usize,
     to: Name,
-    required: Vec<Option<String>>,
-    optional: Vec<(String, Option<String>)>,
+    arguments: &'m Arguments<'static>,
 }
 
 /// The effects of the routines of a program.
 #[derive(Default)]
-pub(super) struct Effects {
+pub(super) struct Effects<'m> {
     of_routines: BTreeMap<Name, Acts>,
     /// The calls of each routine.
-    calls: BTreeMap<Name, Vec<Call>>,
+    calls: BTreeMap<Name, Vec<Call<'m>>>,
     pub(super) assigned: BTreeMap<DatumId, Assigned>,
     /// The data that a routine assigns to which they are passed.
     pub(super) by_reference: BTreeSet<DatumId>,
@@ -100,8 +99,8 @@ pub(super) struct Effects {
     pub(super) gone_through: Cell<usize>,
 }
 
-impl Effects {
-    pub(super) fn of(names: &Index<'_>) -> Self {
+impl<'m> Effects<'m> {
+    pub(super) fn of(names: &Index<'m>) -> Self {
         let mut effects = Self::default();
         let mut calls = BTreeMap::new();
         for (module, bodies) in names.bodies.iter().enumerate() {
@@ -173,8 +172,8 @@ impl Effects {
             let Some(of) = self.of_routines.get(&call.to) else { continue };
             let parameters = names.parameters(call.to.0, &call.to.1);
             for passed in call.assigned(parameters, of) {
-                acts.own.extend(names.datum(module, passed).map(|(datum, _)| datum));
-                locals.insert(passed.into());
+                acts.own.extend(names.datum(module, &passed).map(|(datum, _)| datum));
+                locals.insert(passed);
             }
             called.push(call.to);
         }
@@ -205,7 +204,7 @@ impl Effects {
     }
 
     /// Add what called routines do to those that call them.
-    fn pass_on(&mut self, names: &Index<'_>, calls: &BTreeMap<Name, Vec<Call>>) {
+    fn pass_on(&mut self, names: &Index<'_>, calls: &BTreeMap<Name, Vec<Call<'_>>>) {
         for _ in 0..PASSES {
             let mut has_changed = false;
             for (name, own) in calls {
@@ -217,13 +216,13 @@ impl Effects {
                     let parameters = names.parameters(call.to.0, &call.to.1);
                     for passed in call.assigned(parameters, of) {
                         let (module, routine) = name;
-                        let is_local = names.local(*module, routine, passed).is_some();
+                        let is_local = names.local(*module, routine, &passed).is_some();
                         let own = names.parameters(*module, routine);
                         let is_parameter = own.iter().any(|it| it.name == passed);
                         if is_parameter {
-                            acts.assigned_parameters.insert(passed.into());
+                            acts.assigned_parameters.insert(passed);
                         } else if let Some((datum, _)) =
-                            names.datum(*module, passed).filter(|_| !is_local)
+                            names.datum(*module, &passed).filter(|_| !is_local)
                         {
                             acts.assigns = true;
                             acts.own.insert(datum);
@@ -244,22 +243,22 @@ impl Effects {
     }
 }
 
-impl Call {
+impl Call<'_> {
     /// The names that the called routine assigns.
     fn assigned<'a>(
         &'a self,
         parameters: &'a [Parameter],
         acts: &'a Acts,
-    ) -> impl Iterator<Item = &'a str> {
-        let required = parameters.iter().filter(|it| !it.is_optional).zip(&self.required);
-        let optional = self.optional.iter().filter_map(|(name, passed)| {
-            parameters.iter().find(|it| it.name == *name).map(|it| (it, passed))
+    ) -> impl Iterator<Item = String> {
+        let Arguments { required, optional } = self.arguments;
+        let required = parameters.iter().filter(|it| !it.is_optional).zip(required);
+        let optional = optional.iter().filter_map(|own| {
+            Some((parameters.iter().find(|it| own.is(&it.name))?, own.value.as_ref()?))
         });
-        required.chain(optional).filter_map(|(parameter, passed)| {
-            let is_assigned =
-                parameter.is_reference && acts.assigned_parameters.contains(&parameter.name);
-            passed.as_deref().filter(|_| is_assigned)
-        })
+        let is_assigned =
+            |it: &Parameter| it.is_reference && acts.assigned_parameters.contains(&it.name);
+        let assigned = required.chain(optional).filter(move |(it, _)| is_assigned(it));
+        assigned.filter_map(|(_, passed)| Some(passed.referred()?.0))
     }
 }
 
@@ -270,7 +269,7 @@ struct Reader<'e, 'm> {
     routine: &'e str,
     parameters: &'e [Parameter],
     acts: Acts,
-    calls: Vec<Call>,
+    calls: Vec<Call<'m>>,
     /// Assigned data of the routine.
     locals: BTreeSet<String>,
     assigned: &'e mut BTreeMap<DatumId, Assigned>,
@@ -315,7 +314,7 @@ impl<'e, 'm> Reader<'e, 'm> {
         Self { names, module, routine, parameters, acts, calls, locals, assigned }
     }
 
-    fn block(&mut self, block: &Block<'_>) {
+    fn block(&mut self, block: &Block<'m>) {
         for node in block {
             match node {
                 Node::Setting(_) => self.acts.moves = true,
@@ -336,7 +335,7 @@ impl<'e, 'm> Reader<'e, 'm> {
         }
     }
 
-    fn statement(&mut self, line: usize, kind: &StatementKind) {
+    fn statement(&mut self, line: usize, kind: &'m StatementKind) {
         match kind {
             StatementKind::Unfinished { .. } | StatementKind::Invalid { .. } => {
                 self.acts.moves = true;
@@ -374,21 +373,14 @@ impl<'e, 'm> Reader<'e, 'm> {
         }
     }
 
-    fn call(&mut self, instruction: &Instruction, line: usize) {
+    fn call(&mut self, instruction: &'m Instruction, line: usize) {
         let Some(name) = &instruction.name else {
             // A call by a name that is calculated may do anything.
             self.acts.moves = true;
             return;
         };
         let Some(home) = self.names.procedure(self.module, name) else { return };
-        let arguments = &instruction.arguments;
         let to = (home, name.clone());
-        let name_of = |it: &Expression<'_>| it.referred().map(|(name, _)| name);
-        let required = arguments.required.iter().map(name_of).collect();
-        let optional = arguments.optional.iter();
-        let optional = optional
-            .map(|(name, value)| (name.to_lowercase(), value.as_ref().and_then(name_of)))
-            .collect();
-        self.calls.push(Call { line, to, required, optional });
+        self.calls.push(Call { line, to, arguments: &instruction.arguments });
     }
 }

@@ -81,7 +81,7 @@ impl<'m> Index<'m> {
     pub(super) fn function(&self, module: usize, lower: &str) -> Option<(usize, DataType)> {
         let of = |home: usize| {
             let is_seen = |it: &&Routine| home == module || !it.is_local();
-            Some((home, returned(self.routine(home, lower).filter(is_seen)?)?))
+            Some((home, self.routine(home, lower).filter(is_seen)?.data_type?))
         };
         of(module).or_else(|| (0..self.modules.len()).find_map(of))
     }
@@ -197,13 +197,6 @@ fn locals(module: &Module) -> BTreeMap<String, BTreeMap<String, usize>> {
         }
     }
     found
-}
-
-/// The type of what a function returns, if it is read.
-fn returned(routine: &Routine) -> Option<DataType> {
-    let mut words = routine.header.split_whitespace();
-    words.find(|word| word.eq_ignore_ascii_case("FUNC"))?;
-    DataType::named(words.next()?)
 }
 
 /// The names in lower case of data that are not read, with the reasons.

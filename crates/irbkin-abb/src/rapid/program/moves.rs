@@ -1,7 +1,6 @@
 //! Moves with the values that they have at a place, and what displaces their targets there.
 
 use alloc::borrow::Cow;
-use alloc::format;
 use alloc::rc::Rc;
 
 use super::state::{Displacement, Offsets, Place, State};
@@ -10,7 +9,7 @@ use crate::Error;
 use crate::rapid::calc::frames::{pose_in, rapid_pose};
 use crate::rapid::calc::target::target_pose;
 use crate::rapid::calc::units::MOST_DEGREES;
-use crate::rapid::data::expression::Expression;
+use crate::rapid::data::expression::{Arguments, Expression};
 use crate::rapid::data::instructions::Shift;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::{RapidPose, RobTarget, ToolData, WobjData};
@@ -18,6 +17,7 @@ use crate::rapid::data::statement::{Instruction, Statement};
 use crate::rapid::data::types::Record;
 use crate::rapid::data::unread::{AssignedBy, Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
+use crate::rapid::expression::names::{Names as _, Question};
 use irbkin::Pose;
 
 impl Scope<'_, '_> {
@@ -148,82 +148,93 @@ impl Scope<'_, '_> {
             step.time = None;
         } else {
             let text = text.trim_start_matches('?');
-            step.time = Some(argument(text).and_then(|it| self.number(text, &it)));
+            step.time = Some(argument(text).and_then(|it| self.evaluated(text, &it)));
         }
     }
 
     /// The displacement of targets behind an instruction.
     pub(super) fn displacement(
         &self,
-        skipped: &Statement,
+        statement: &Statement,
         instruction: &Instruction,
         shift: Shift,
     ) -> Displacement {
-        let pose = match shift {
+        let pose: Option<RapidPose> = match shift {
             Shift::Off => return Displacement::Nothing,
-            Shift::Given => self.first(skipped, instruction, DataType::Pose),
-            Shift::Between => self.between(skipped, instruction).map(Value::Pose),
+            Shift::Given => self.argument_of(statement, instruction.arguments.required.first()),
+            Shift::Between => self.between(statement, instruction),
         };
         match pose {
-            Some(Value::Pose(pose)) => Displacement::Known(pose, skipped.line),
-            _ => Displacement::Unknown(skipped.line),
+            Some(pose) => Displacement::Known(pose, statement.line),
+            None => Displacement::Unknown(statement.line),
         }
     }
 
     /// The offsets of external axes behind an instruction.
     pub(super) fn offsets(
         &self,
-        skipped: &Statement,
+        statement: &Statement,
         instruction: &Instruction,
         shift: Shift,
     ) -> Offsets {
-        match shift {
-            Shift::Off => Ok([0.0; 6]),
+        let Arguments { required, optional } = &instruction.arguments;
+        let first = required.first();
+        let offsets = match shift {
+            Shift::Off => Some([0.0; 6]),
             Shift::Between => {
-                let arguments = &instruction.arguments;
-                let from = self.first(skipped, instruction, DataType::RobTarget);
-                match (from, self.record::<RobTarget>("CRobT()")) {
-                    (Some(Value::RobTarget(from)), Ok(to)) if arguments.optional.is_empty() => {
-                        Ok(core::array::from_fn(|axis| to.extax[axis] - from.extax[axis]))
-                    }
-                    _ => Err(skipped.line),
+                let from: Option<RobTarget> = self.argument_of(statement, first);
+                let to = self.here((None, None)).filter(|_| optional.is_empty());
+                let between = |(from, to): (RobTarget, RobTarget)| {
+                    core::array::from_fn(|axis| to.extax[axis] - from.extax[axis])
+                };
+                from.zip(to).map(between)
+            }
+            Shift::Given => {
+                let value = |it| self.value(&statement.text, it, DataType::ExtJoint).ok();
+                match first.and_then(value) {
+                    Some(Value::ExtJoint(offsets)) => Some(offsets),
+                    _ => None,
                 }
             }
-            Shift::Given => match self.first(skipped, instruction, DataType::ExtJoint) {
-                Some(Value::ExtJoint(offsets)) => Ok(offsets),
-                _ => Err(skipped.line),
-            },
-        }
+        };
+        offsets.ok_or(statement.line)
     }
 
-    /// The value of the first argument.
-    fn first(
+    /// The value of an argument of a statement, if it has it.
+    fn argument_of<T: Record>(
         &self,
-        skipped: &Statement,
-        instruction: &Instruction,
-        data_type: DataType,
-    ) -> Option<Value> {
-        let argument = instruction.arguments.required.first()?;
-        self.value(&skipped.text, argument, data_type).ok()
+        statement: &Statement,
+        argument: Option<&Expression<'_>>,
+    ) -> Option<T> {
+        self.evaluated(&statement.text, argument?).ok()
+    }
+
+    /// Where the robot is, in a tool and a work object.
+    fn here(&self, at: (Option<ToolData>, Option<WobjData>)) -> Option<RobTarget> {
+        match self.ask("CRobT", Question::Here(Some(at))) {
+            Ok(Target::RobTarget(target)) => Some(target),
+            _ => None,
+        }
     }
 
     /// The displacement of PDispOn from a programmed position to the one that is executed, which is
     /// where the robot is unless `\ExeP` gives it.
-    fn between(&self, skipped: &Statement, instruction: &Instruction) -> Option<RapidPose> {
+    fn between(&self, statement: &Statement, instruction: &Instruction) -> Option<RapidPose> {
         let arguments = &instruction.arguments;
-        let has =
-            |name: &str| arguments.optional.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
-        let text = |it: &Expression<'_>| skipped.text.get(it.start..it.end);
-        let pose = |text: &str| target_pose(&self.record(text).ok()?).ok();
-        let executed: Pose = if let Some((_, executed)) = has("ExeP") {
-            pose(text(executed.as_ref()?)?)?
+        let executed: RobTarget = if let Some(executed) = arguments.value("ExeP") {
+            self.argument_of(statement, Some(executed))?
         } else {
-            let wobj = has("WObj").map_or(Some("wobj0"), |(_, wobj)| text(wobj.as_ref()?))?;
-            let tool = text(arguments.required.get(1)?)?;
-            pose(&format!("CRobT(\\Tool:={tool}\\WObj:={wobj})"))?
+            let wobj = match arguments.value("WObj") {
+                Some(wobj) => Some(self.argument_of(statement, Some(wobj))?),
+                None => None,
+            };
+            let tool = self.argument_of(statement, arguments.required.get(1))?;
+            self.here((Some(tool), Some(wobj.unwrap_or(WobjData::WOBJ0))))?
         };
-        let programmed: Pose = pose(text(arguments.required.first()?)?)?;
-        if has("Rot").is_some() {
+        let programmed: RobTarget = self.argument_of(statement, arguments.required.first())?;
+        let [executed, programmed] = [target_pose(&executed), target_pose(&programmed)];
+        let (executed, programmed): (Pose, Pose) = (executed.ok()?, programmed.ok()?);
+        if arguments.optional.iter().any(|it| it.is("Rot")) {
             return Some(rapid_pose(&(executed * programmed.inverse())));
         }
         let shift = executed.translation.vector - programmed.translation.vector;

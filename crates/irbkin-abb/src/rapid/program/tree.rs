@@ -221,6 +221,8 @@ fn decides(variable: &str, condition: &Condition) -> bool {
 /// Whether numbers depend on a name, in lower case, and on nothing else.
 fn depends_on(numbers: &[Expression<'_>], lower: &str) -> bool {
     let mut names = Vec::new();
-    numbers.iter().for_each(|number| number.collect_names(&mut names));
+    for number in numbers {
+        number.collect_names(&mut names);
+    }
     !names.is_empty() && names.iter().all(|name| name.to_lowercase() == lower)
 }

@@ -232,7 +232,7 @@ impl<'s> Scope<'s, '_> {
     }
 
     pub(super) fn record<T: Record>(&self, text: &str) -> Result<T, Reason> {
-        known(self.evaluator(text).record(&argument(text)?))
+        self.evaluated(text, &argument(text)?)
     }
 
     /// The value of an expression of a statement, of a type.
@@ -245,8 +245,12 @@ impl<'s> Scope<'s, '_> {
         known(self.evaluator(text).value(expression, data_type))
     }
 
-    /// The number that an expression of a statement is.
-    pub(super) fn number(&self, text: &str, expression: &Expression<'_>) -> Result<f64, Reason> {
+    /// The record or the number that an expression of a statement is.
+    pub(super) fn evaluated<T: Record>(
+        &self,
+        text: &str,
+        expression: &Expression<'_>,
+    ) -> Result<T, Reason> {
         known(self.evaluator(text).record(expression))
     }
 
@@ -300,7 +304,7 @@ impl<'s> Scope<'s, '_> {
             Content::Array { sizes, values } if sizes.len() == indices.len() => {
                 let mut element = 0;
                 for (index, size) in indices.iter().zip(sizes.iter()) {
-                    let index = positive_whole(self.number(text, index).ok()?);
+                    let index = positive_whole(self.evaluated(text, index).ok()?);
                     element = element * size + index.filter(|index| index <= size)? - 1;
                 }
                 values.get_mut(element)?

@@ -17,7 +17,7 @@ type Convert<'r> = &'r dyn Fn(&Target, &ToolIn, Option<&ToolIn>) -> Result<Targe
 /// Modules that know each other.
 pub(in crate::rapid) struct Program<'m> {
     index: Index<'m>,
-    pub(super) effects: Effects,
+    pub(super) effects: Effects<'m>,
     pub(super) convert: Convert<'m>,
 }
 

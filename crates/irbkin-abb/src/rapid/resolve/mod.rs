@@ -4,7 +4,6 @@ mod moves;
 pub(crate) mod resolver;
 
 use alloc::boxed::Box;
-use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -24,28 +23,23 @@ use crate::rapid::text::fault::RapidFault;
 pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
     let Written {
         text,
-        name,
-        attributes,
-        routines,
+        mut module,
         declared,
         contents,
         parts,
-        types,
         mut moves,
-        mut statements,
         faults,
         assignments,
         scopes,
         blocks,
-        mut calls,
     } = written;
     // What is read twice is noted twice.
-    calls.sort_by_key(|call| call.name.start);
-    calls.dedup_by_key(|call| call.name.start);
+    module.calls.sort_by_key(|call| call.name.start);
+    module.calls.dedup_by_key(|call| call.name.start);
     // Data with unknown parts are not resolved yet: none of their reasons is used before.
     let contents = contents.into_iter().map(|known| known.ok_or(Reason::Unfinished)).collect();
     let mut causes = Causes::new(&assignments, &declared, &scopes, &blocks);
-    causes.add_assigned_elsewhere(name, context, &declared, &scopes);
+    causes.add_assigned_elsewhere(module.name(), context, &declared, &scopes);
     let parts = &parts;
     let mut resolver = Resolver {
         text,
@@ -61,97 +55,73 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         faults,
     };
     resolver.resolve_all()?;
-    let moves = resolver.moves(&mut moves, &mut statements, &routines)?;
+    module.moves = resolver.moves(&mut moves, &mut module.statements, &module.routines)?;
     let Resolver { contents, causes, faults, .. } = resolver;
-    let mut faults = faults.kept;
-    faults.sort_by_key(|fault| (fault.line, fault.column));
-    let mut all = ResolvedData { statements, ..ResolvedData::default() };
-    all.data.reserve_exact(declared.len());
+    module.faults = faults.kept;
+    module.faults.sort_by_key(|fault| (fault.line, fault.column));
+    module.data.reserve_exact(declared.len());
+    let mut places = Vec::with_capacity(declared.len());
     for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
-        if let Some(name) = parts.get(&i) {
-            all.add_part(name, datum, content);
-            continue;
-        }
-        let routine = routine_name(&routines, datum.routine);
-        all.add(text, datum, routine, content, causes.of_datum(i).is_some());
+        let is_assigned = causes.of_datum(i).is_some();
+        places.push(match parts.get(&i) {
+            Some(name) => add_part(&mut module, name, datum, content),
+            None => add(&mut module, text, datum, content, is_assigned),
+        });
     }
-    let ResolvedData { data, parts: of_records, places, mut statements, expressions } = all;
-    statements.sort_by_key(|statement| (statement.line, statement.column));
-    let assigned = causes.names(&declared, parts);
-    let index = scopes
+    module.statements.sort_by_key(|statement| (statement.line, statement.column));
+    module.assigned = causes.names(&declared, parts);
+    module.index = scopes
         .module_data()
         .filter_map(|(name, declared)| Some((name, places.get(declared).copied()??)))
         .collect();
-    let name = name.map(ToString::to_string);
-    Ok(Module {
-        name,
-        attributes,
-        routines,
-        data,
-        moves,
-        statements,
-        faults,
-        index,
-        assigned,
-        expressions,
-        types,
-        parts: of_records,
-        calls,
-        text_length: text.len(),
-    })
+    module.text_length = text.len();
+    Ok(module)
 }
 
-/// The data of a module, and what is not read.
-#[derive(Default)]
-struct ResolvedData {
-    data: Vec<Datum>,
-    /// Components of data of records.
-    parts: BTreeMap<String, Datum>,
-    /// The place of each declaration among the data.
-    places: Vec<Option<usize>>,
-    statements: Vec<Statement>,
-    /// The values that refer to assigned data, as they are written, by the place of the datum.
-    expressions: BTreeMap<usize, String>,
+/// Add a component of a datum of a record, if it is known and not of a routine: no datum by itself.
+fn add_part(
+    module: &mut Module,
+    name: &str,
+    declared: &Declared<'_>,
+    content: Result<Placed, Reason>,
+) -> Option<usize> {
+    if let (Ok(placed), 0) = (content, declared.routine) {
+        let datum = datum_of(name.to_string(), declared, None, placed);
+        module.parts.insert(name.to_string(), datum);
+    }
+    None
 }
 
-impl ResolvedData {
-    /// Add a component of a datum, if it is known and not of a routine.
-    fn add_part(&mut self, name: &str, declared: &Declared<'_>, content: Result<Placed, Reason>) {
-        self.places.push(None);
-        if let (Ok(placed), 0) = (content, declared.routine) {
-            self.parts.insert(name.to_string(), datum_of(name.to_string(), declared, None, placed));
+/// Add a declaration, which may refer to assigned data; its place among the data, if its value is
+/// known.
+fn add(
+    module: &mut Module,
+    text: &str,
+    declared: &Declared<'_>,
+    content: Result<Placed, Reason>,
+    is_assigned: bool,
+) -> Option<usize> {
+    let source = |span: Range<usize>| text.get(span).unwrap_or_default().to_string();
+    let name = declared.name.to_string();
+    let routine = routine_name(&module.routines, declared.routine);
+    let placed = match content {
+        Ok(placed) => placed,
+        Err(reason) => {
+            let kind = StatementKind::Datum { name, reason: Box::new(reason) };
+            let text = source(declared.start..declared.end);
+            let Declared { line, column, start, .. } = *declared;
+            let routine = routine.map(Arc::from);
+            module.statements.push(Statement { line, column, routine, kind, text, start });
+            return None;
         }
+    };
+    // Names of the sizes do not count: they are constants.
+    let place = module.data.len();
+    if is_assigned && declared.names.len() > declared.size_names {
+        module.expressions.insert(place, source(placed.value_span.clone()));
     }
-
-    /// Add a declaration, which may refer to assigned data.
-    fn add(
-        &mut self,
-        text: &str,
-        declared: &Declared<'_>,
-        routine: Option<String>,
-        content: Result<Placed, Reason>,
-        is_assigned: bool,
-    ) {
-        let source = |span: Range<usize>| text.get(span).unwrap_or_default().to_string();
-        let name = declared.name.to_string();
-        self.places.push(content.is_ok().then_some(self.data.len()));
-        let placed = match content {
-            Ok(placed) => placed,
-            Err(reason) => {
-                let kind = StatementKind::Datum { name, reason: Box::new(reason) };
-                let text = source(declared.start..declared.end);
-                let Declared { line, column, start, .. } = *declared;
-                let routine = routine.map(Arc::from);
-                self.statements.push(Statement { line, column, routine, kind, text, start });
-                return;
-            }
-        };
-        // Names of the sizes do not count: they are constants.
-        if is_assigned && declared.names.len() > declared.size_names {
-            self.expressions.insert(self.data.len(), source(placed.value_span.clone()));
-        }
-        self.data.push(datum_of(name, declared, routine, placed));
-    }
+    module.data.push(datum_of(name, declared, routine, placed));
+    Some(place)
 }
 
 /// The datum of a declaration and its content.

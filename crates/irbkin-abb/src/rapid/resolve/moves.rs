@@ -5,9 +5,9 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::resolver::Resolver;
-use crate::rapid::data::expression::Expression;
+use crate::rapid::data::expression::{Expression, Optional};
 use crate::rapid::data::module::{Routine, routine_name};
-use crate::rapid::data::moves::{Argument, ExtraArgument, Move, MoveKind, Target};
+use crate::rapid::data::moves::{Argument, ExtraArgument, Move, MoveKind, MoveOption, Target};
 use crate::rapid::data::moving::Places;
 use crate::rapid::data::records::{SpeedData, ToolData, ZoneData};
 use crate::rapid::data::statement::{Instruction, Statement, StatementKind};
@@ -53,11 +53,11 @@ impl<'a> Resolver<'a> {
         step: &WrittenMove<'a>,
         role: &'static str,
     ) -> Result<Option<Known<f64>>, RapidFault> {
-        let mut options = step.arguments.optional.iter();
-        match options.find(|(own, _)| own.eq_ignore_ascii_case(&role[1..])) {
+        let option = step.arguments.optional.iter().find(|it| it.is(&role[1..]));
+        match option.map(|it| &it.value) {
             None => Ok(None),
-            Some((_, None)) => Ok(Some(Err(Reason::Unfinished))),
-            Some((_, Some(number))) => known(self.evaluator(step, role).record(number)).map(Some),
+            Some(None) => Ok(Some(Err(Reason::Unfinished))),
+            Some(Some(number)) => known(self.evaluator(step, role).record(number)).map(Some),
         }
     }
 
@@ -160,12 +160,10 @@ impl<'a> Resolver<'a> {
     /// A move with the values of its arguments; `None` if they are of another instruction.
     fn step(
         &self,
-        written: &mut WrittenMove<'a>,
+        step: &WrittenMove<'a>,
         routines: &[Routine],
     ) -> Result<Option<Move>, RapidFault> {
-        let Some(places) = self.places(written) else { return Ok(None) };
-        let options = core::mem::take(&mut written.options);
-        let step = &*written;
+        let Some(places) = self.places(step) else { return Ok(None) };
         let Places { via, target, speed, zone, tool } = places;
         let [target, speed] = [target, speed].map(|place| step.arguments.required.get(place));
         let (Some(target), Some(speed)) = (target, speed) else { return Ok(None) };
@@ -179,8 +177,15 @@ impl<'a> Resolver<'a> {
             Argument { text, span, value: value.map(Target::RobTarget) }
         };
         let no_tool = Argument { text: String::new(), span: 0..0, value: Ok(ToolData::TOOL0) };
-        let wobj =
-            step.arguments.value("WObj").map(|wobj| self.argument(step, "work object", wobj));
+        let is_wobj = |it: &Optional<'_>| it.is("WObj") && it.value.is_some();
+        let wobj = step.arguments.optional.iter().position(is_wobj);
+        let options = step.arguments.optional.iter().enumerate();
+        let options = options.filter(|(place, _)| Some(*place) != wobj).map(|(_, it)| MoveOption {
+            after: it.after,
+            name: it.name.to_string(),
+            text: it.value.as_ref().map(|value| self.source(value)),
+        });
+        let wobj = step.arguments.value("WObj").map(|it| self.argument(step, "work object", it));
         Ok(Some(Move {
             kind: way,
             instruction: step.name.to_string(),
@@ -196,7 +201,7 @@ impl<'a> Resolver<'a> {
                 None => no_tool,
             },
             wobj: wobj.transpose()?,
-            options,
+            options: options.collect(),
             extra: self.extra(step, places),
             displaced: step.displaced,
             speed_data: self.speed(step, speed)?,

@@ -178,7 +178,7 @@ impl<'a> StatementReader<'a> {
         let arguments = ExpressionReader::of_statement(&mut self.tokens).arguments()?;
         self.end("a comma or a semicolon")?;
         if let Some(name) = named {
-            note(&mut self.tokens, name, false, &arguments);
+            note(&mut self.tokens, first.start, name, false, &arguments);
         }
         let place = name.and_then(written_argument);
         let written = place.and_then(|place| arguments.required.get(place - 1));

@@ -1,20 +1,13 @@
 //! Move instructions as they are written.
 
-use alloc::string::ToString;
-use alloc::vec::Vec;
-
 use super::faults::{Faults, end_statement};
 use crate::rapid::data::expression::Arguments;
-use crate::rapid::data::moves::MoveOption;
 use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::expression::names::At;
 use crate::rapid::expression::reader::{ExpressionReader, note};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, Tokens};
-
-/// Initial capacity for the required arguments: most moves have four or five.
-const USUAL_ARGUMENTS: usize = 5;
 
 /// A move before its names are looked up.
 pub(crate) struct WrittenMove<'a> {
@@ -30,8 +23,6 @@ pub(crate) struct WrittenMove<'a> {
     /// Line of the instruction that displaces it.
     pub(crate) displaced: Option<usize>,
     pub(crate) arguments: Arguments<'a>,
-    /// The optional arguments but for the work object, as they are written.
-    pub(crate) options: Vec<MoveOption>,
     pub(crate) settings: MotionSettings,
 }
 
@@ -44,33 +35,7 @@ pub(crate) fn read_move<'a>(
     (start, name): (usize, Token),
 ) -> Result<Option<WrittenMove<'a>>, RapidFault> {
     let (line, column) = tokens.line_and_column(start);
-    let mut arguments = Arguments::default();
-    arguments.required.reserve_exact(USUAL_ARGUMENTS);
-    let mut options = Vec::new();
-    loop {
-        let next = tokens.peek();
-        // A comma may precede an optional argument too.
-        let is_first = arguments.required.is_empty() && arguments.optional.is_empty();
-        let is_end = is_first && tokens.begins_statement(true);
-        if next.is(b';') || is_end || !is_first && !next.is(b',') && !next.is(b'\\') {
-            break;
-        }
-        if !is_first {
-            tokens.take_if(b',')?;
-        }
-        if !tokens.take_if(b'\\')? {
-            arguments.required.push(ExpressionReader::new(tokens).argument()?);
-            continue;
-        }
-        let (name, value) = ExpressionReader::new(tokens).optional()?;
-        let is_wobj = name.eq_ignore_ascii_case("WObj") && value.is_some();
-        if !is_wobj || arguments.value("WObj").is_some() {
-            let text = value.as_ref().map(|it| tokens.text[it.start..it.end].to_string());
-            let after = arguments.required.len();
-            options.push(MoveOption { after, name: name.to_string(), text });
-        }
-        arguments.optional.push((name, value));
-    }
+    let arguments = ExpressionReader::new(tokens).arguments()?;
     end_statement(tokens, faults, "a comma or a semicolon")?;
     if tokens.unfinished_since(start) {
         return Ok(None);
@@ -85,7 +50,7 @@ pub(crate) fn read_move<'a>(
         return Err(tokens.fault(start, kind));
     }
     if !arguments.optional.is_empty() || !instruction.is_basic() {
-        note(tokens, name, false, &arguments);
+        note(tokens, start, name, false, &arguments);
     }
     Ok(Some(WrittenMove {
         instruction,
@@ -97,7 +62,6 @@ pub(crate) fn read_move<'a>(
         column,
         displaced: None,
         arguments,
-        options,
         settings: MotionSettings::default(),
     }))
 }

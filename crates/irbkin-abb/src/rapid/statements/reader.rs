@@ -21,28 +21,24 @@ use crate::rapid::data::unread::Unresolved;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::names::At;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
-use crate::rapid::text::tokens::{Called, Token, Tokens};
+use crate::rapid::text::tokens::{Token, Tokens};
 
 /// A module as it is written, before names are looked up.
 #[derive(Default)]
 pub(crate) struct Written<'a> {
     pub(crate) text: &'a str,
-    pub(crate) name: Option<&'a str>,
-    pub(crate) attributes: Vec<String>,
-    pub(crate) routines: Vec<Routine>,
+    /// What is read without looking up a name.
+    pub(crate) module: Module,
     pub(crate) declared: Vec<Declared<'a>>,
     /// The content of each declaration, if it is known without looking up a name.
     pub(crate) contents: Vec<Option<Placed>>,
     /// The names in lower case of the declarations that are components of data of records.
     pub(crate) parts: BTreeMap<usize, String>,
-    pub(crate) types: OwnTypes,
     pub(crate) moves: Vec<WrittenMove<'a>>,
-    pub(crate) statements: Vec<Statement>,
     pub(crate) faults: Faults<'a>,
     pub(crate) assignments: Vec<Assignment<'a>>,
     pub(crate) scopes: Scopes,
     pub(crate) blocks: Blocks<'a>,
-    pub(crate) calls: Vec<Called>,
 }
 
 /// A statement that gives a datum another value.
@@ -101,7 +97,7 @@ impl<'a> StatementReader<'a> {
     }
 
     pub(super) fn current_routine(&self) -> Option<&Routine> {
-        self.written.routines.get(self.routine.checked_sub(1)?)
+        self.written.module.routines.get(self.routine.checked_sub(1)?)
     }
 
     /// The word that ends the innermost block or else the routine.
@@ -139,9 +135,9 @@ impl<'a> StatementReader<'a> {
     pub(super) fn add_at(&mut self, start: usize, kind: StatementKind, text: String) -> usize {
         let (line, column) = self.tokens.line_and_column(start);
         let name = self.current_routine().map(|routine| routine.name.as_str());
-        let last = self.written.statements.last().and_then(|it| it.routine.clone());
+        let last = self.written.module.statements.last().and_then(|it| it.routine.clone());
         let routine = last.filter(|last| Some(&**last) == name).or_else(|| name.map(Arc::from));
-        self.written.statements.push(Statement { line, column, routine, kind, text, start });
+        self.written.module.statements.push(Statement { line, column, routine, kind, text, start });
         line
     }
 

@@ -44,8 +44,8 @@ impl<'a> StatementReader<'a> {
             }
         }
         reader.check_end()?;
-        reader.written.types = reader.types.own;
-        reader.written.calls = reader.tokens.calls;
+        reader.written.module.types = reader.types.own;
+        reader.written.module.calls = reader.tokens.calls;
         Ok(reader.written)
     }
 
@@ -56,7 +56,7 @@ impl<'a> StatementReader<'a> {
         } else if let Some(routine) = self.current_routine() {
             (format!("{} {}", routine.kind.name(), routine.name), routine.kind.end())
         } else if self.stage == Stage::Module {
-            (format!("MODULE {}", self.written.name.unwrap_or_default()), "ENDMODULE")
+            (format!("MODULE {}", self.written.module.name().unwrap_or_default()), "ENDMODULE")
         } else {
             return Ok(());
         };
@@ -130,7 +130,7 @@ impl<'a> StatementReader<'a> {
         self.tokens.take()?;
         self.stage = Stage::Module;
         let name = read_name(&mut self.tokens, "the module's name")?;
-        self.written.name.get_or_insert(name);
+        self.written.module.name.get_or_insert_with(|| name.to_string());
         if !self.tokens.take_if(b'(')? {
             return Ok(());
         }
@@ -140,7 +140,7 @@ impl<'a> StatementReader<'a> {
                 return Err(self.tokens.unexpected("an attribute of the module"));
             }
             self.tokens.take()?;
-            self.written.attributes.push(self.tokens.text_of(attribute).to_string());
+            self.written.module.attributes.push(self.tokens.text_of(attribute).to_string());
             if !self.tokens.take_if(b',')? {
                 return self.tokens.demand(b')', "a comma or )");
             }
@@ -247,8 +247,9 @@ impl StatementReader<'_> {
     ) -> Result<(), RapidFault> {
         self.close_all()?;
         self.tokens.take()?;
+        let mut data_type = None;
         if kind == RoutineKind::Func {
-            read_name(&mut self.tokens, "the type of the function")?;
+            data_type = DataType::named(read_name(&mut self.tokens, "the type of the function")?);
         }
         let name = read_name(&mut self.tokens, "the name of the routine")?;
         if is_placeholder(name) {
@@ -259,15 +260,16 @@ impl StatementReader<'_> {
         }
         let (line, column) = self.tokens.line_and_column(first.start);
         self.written.scopes.add_routine();
-        self.written.routines.push(Routine {
+        self.written.module.routines.push(Routine {
             kind,
             name: name.to_string(),
             header: self.written.text[first.start..self.tokens.last_end].to_string(),
             line,
             column,
             parameters: Vec::new(),
+            data_type,
         });
-        self.routine = self.written.routines.len();
+        self.routine = self.written.module.routines.len();
         (self.displaced_by, self.settings) = Default::default();
         let mut parameters = Vec::new();
         if self.tokens.peek().is(b'(') && kind != RoutineKind::Trap {
@@ -276,7 +278,7 @@ impl StatementReader<'_> {
             self.complain(self.tokens.lacking("("))?;
         }
         let header = self.written.text[first.start..self.tokens.last_end].to_string();
-        if let Some(routine) = self.written.routines.last_mut() {
+        if let Some(routine) = self.written.module.routines.last_mut() {
             (routine.header, routine.parameters) = (header, parameters);
         }
         Ok(())

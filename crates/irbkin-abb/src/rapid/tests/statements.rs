@@ -87,8 +87,9 @@ fn bytes_of_expressions_count_from_the_beginning_of_their_statement() {
     let required = own.arguments.required.iter().map(|it| written(call, it));
     assert_eq!(required.collect::<Vec<_>>(), ["1+2*n", "[f(x\\o),-2]"]);
     let optional = own.arguments.optional.iter();
-    let optional = optional.map(|(name, it)| (&**name, it.as_ref().map(|it| written(call, it))));
-    assert_eq!(optional.collect::<Vec<_>>(), [("Z", Some("a{1,k}.b")), ("S", Some("?s"))]);
+    let optional =
+        optional.map(|it| (&*it.name, it.after, it.value.as_ref().map(|it| written(call, it))));
+    assert_eq!(optional.collect::<Vec<_>>(), [("Z", 1, Some("a{1,k}.b")), ("S", 1, Some("?s"))]);
     let (_, indices, components) = own.arguments.value("z").unwrap().reference().unwrap();
     assert_eq!((written(call, &indices[1]), &*components[0]), ("k", "b"));
     let StatementKind::Assignment(own) = &assignment.kind else { panic!() };
@@ -116,6 +117,8 @@ fn calls_have_the_name_of_a_procedure_unless_it_is_calculated() {
 #[test]
 fn conditions_are_read_as_far_as_they_are_evaluated() {
     assert_eq!(condition_of("IF TRUE THEN\nENDIF"), Condition::Always);
+    assert_eq!(condition_of("WHILE (TRUE) DO\nENDWHILE"), Condition::Always);
+    assert!(matches!(condition_of("IF (a=1) THEN\nENDIF"), Condition::Compared(..)));
     assert_eq!(condition_of("WHILE FALSE DO\nENDWHILE"), Condition::Never);
     let present = |wanted| Condition::Present("x".into(), wanted);
     assert_eq!(condition_of("IF Present(X) RETURN;"), present(true));

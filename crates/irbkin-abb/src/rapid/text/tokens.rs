@@ -81,6 +81,8 @@ pub(crate) struct Tokens<'a> {
 /// A call of a procedure or of a function that RAPID itself does not have like this.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Called {
+    /// The first byte of its statement or, of a function, of its name.
+    pub(crate) start: usize,
     /// Bytes of its name.
     pub(crate) name: Range<usize>,
     pub(crate) is_function: bool,
