@@ -27,11 +27,10 @@
 //! The layers; each uses only the layers before it:
 //!
 //! 1. `text`: places, tokens, literals, reserved words and faults of a text.
-//! 2. `data`: types, records, values, declarations, moves, modules, and reasons why something is
-//!    not read.
-//! 3. `expression`: expressions as they are written, and their values.
-//! 4. `statements`: declarations, moves, routines and blocks as they are written, and what is not
-//!    read.
+//! 2. `data`: types, records, values, expressions, statements, moves, modules, and reasons why
+//!    something is not read.
+//! 3. `expression`: expressions read, and their values.
+//! 4. `statements`: the statements of a text read, each once, into one list.
 //! 5. `resolve`: names resolved, data in the order of their references, then moves.
 //! 6. `module`: whole modules read, compared, made, written, and rewritten in place.
 //! 7. `calc`: joint angles of targets and back, one by one and in tables.

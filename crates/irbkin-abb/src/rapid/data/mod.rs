@@ -1,5 +1,5 @@
-//! The content of a module: types, records, values, data, moves, and reasons why something is not
-//! read.
+//! The content of a module: types, records, values, expressions, statements, data, moves, and
+//! reasons why something is not read.
 
 pub(crate) mod expression;
 pub(crate) mod finding;

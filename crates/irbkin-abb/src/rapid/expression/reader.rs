@@ -248,24 +248,26 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     fn factor(&mut self) -> Result<Expression<'a>, RapidFault> {
         let start = self.tokens.peek().start;
         let mut negative = false;
+        let mut negations = 0;
         loop {
             match self.tokens.peek().kind {
                 TokenKind::Symbol(b'-') => negative = !negative,
                 TokenKind::Symbol(b'+') => {}
+                TokenKind::Name if self.tokens.at_word("NOT") => negations += 1,
                 _ => break,
             }
             self.tokens.take()?;
         }
         let mut operand = self.operand()?;
         operand.start = start;
-        if !negative {
-            return Ok(operand);
-        }
-        let form = match operand.form {
-            Form::Number(value) => Form::Number(-value),
-            _ => Form::Negated(Box::new(operand)),
+        let form = match (negations, negative, operand.form) {
+            (0, false, form) => form,
+            (0, true, Form::Number(value)) => Form::Number(-value),
+            (0, true, form) => Form::Negated(Box::new(Expression { form, ..operand })),
+            (1, false, form) => Form::Not(Box::new(Expression { form, ..operand })),
+            _ => Form::Unread(Box::new(Reason::Negation)),
         };
-        Ok(self.made(start, form))
+        Ok(Expression { form, ..operand })
     }
 
     fn operand(&mut self) -> Result<Expression<'a>, RapidFault> {
@@ -309,16 +311,12 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(self.made(open.start, inside.form))
     }
 
-    /// TRUE, FALSE, NOT, a function or a reference.
+    /// TRUE, FALSE, a function or a reference.
     fn name(&mut self, token: Token) -> Result<Form<'a>, RapidFault> {
         let name = self.tokens.text_of(token);
         if name.eq_ignore_ascii_case("TRUE") || name.eq_ignore_ascii_case("FALSE") {
             self.tokens.take()?;
             return Ok(Form::Bool(name.eq_ignore_ascii_case("TRUE")));
-        }
-        if name.eq_ignore_ascii_case("NOT") {
-            self.tokens.take()?;
-            return Ok(Form::Not(Box::new(self.factor()?)));
         }
         let is_unfinished = self.within != Within::Condition && self.tokens.begins_statement(false);
         if is_reserved(name) || is_unfinished {

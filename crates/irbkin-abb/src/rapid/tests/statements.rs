@@ -165,3 +165,13 @@ fn conditions_are_read_as_far_as_they_are_evaluated() {
     };
     assert_eq!(values.iter().map(|it| written(case, it)).collect::<Vec<_>>(), ["1", "-2"]);
 }
+
+#[test]
+fn prefixes_without_end_are_read_in_a_loop() {
+    for prefix in ["NOT ", "-", "+", "-NOT "] {
+        let value = format!("{}a", prefix.repeat(100_000));
+        let module = module_of(&format!("x:={value};"));
+        let StatementKind::Assignment(own) = &module.statements[0].kind else { panic!() };
+        assert_eq!(written(&module.statements[0], &own.value), value);
+    }
+}
