@@ -1,7 +1,5 @@
 //! How moves are made: what ConfL, ConfJ, SingArea and CirPathMode set.
 
-use super::expression::Arguments;
-use super::statement::Instruction;
 use crate::rapid::text::words::words;
 
 /// Settings of the instructions before a move in its routine. The default is set at the beginning
@@ -63,24 +61,18 @@ words! {
 }
 
 impl MotionSettings {
-    /// Set what an instruction sets by its switch; without one it sets the default. Returns whether
+    /// Set what an instruction with a switch sets; without one it sets the default. Returns whether
     /// there is such an instruction and such a switch.
-    pub(crate) fn set(&mut self, instruction: &Instruction) -> bool {
+    pub(crate) fn set(&mut self, instruction: &str, switch: Option<&str>) -> bool {
         fn put<T>(place: &mut T, value: Option<T>) -> bool {
             value.map(|value| *place = value).is_some()
         }
-        let Arguments { required, optional } = &instruction.arguments;
-        let switch = match (required.as_slice(), optional.as_slice()) {
-            ([], []) => None,
-            ([], [switch]) if switch.value.is_none() => Some(&*switch.name),
-            _ => return false,
-        };
         let is_on = match switch.map(str::to_ascii_lowercase).as_deref() {
             None | Some("on") => Some(true),
             Some("off") => Some(false),
             Some(_) => None,
         };
-        match instruction.word.to_ascii_lowercase().as_str() {
+        match instruction.to_ascii_lowercase().as_str() {
             "confl" => put(&mut self.conf_l, is_on),
             "confj" => put(&mut self.conf_j, is_on),
             "singarea" => {

@@ -10,6 +10,7 @@ use thiserror::Error;
 use super::expression::{Arguments, Expression, Form, Relation};
 use super::instructions::Effect;
 use super::lookup::written_argument;
+use super::settings::MotionSettings;
 use super::unread::Reason;
 
 /// A statement, or a part of the text that is not read.
@@ -132,6 +133,16 @@ impl Instruction {
             name: called.map(str::to_lowercase),
             arguments,
             written,
+        }
+    }
+
+    /// Set how moves are made, if it sets that. Returns whether it does.
+    pub(crate) fn set(&self, settings: &mut MotionSettings) -> bool {
+        let Arguments { required, optional } = &self.arguments;
+        match (required.as_slice(), optional.as_slice()) {
+            ([], []) => settings.set(&self.word, None),
+            ([], [it]) if it.value.is_none() => settings.set(&self.word, Some(&it.name)),
+            _ => false,
         }
     }
 }

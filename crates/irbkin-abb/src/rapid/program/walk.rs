@@ -119,7 +119,7 @@ impl<'m> Walk<'_, 'm> {
             match node {
                 Node::Move(index, step) => self.step(*index, step),
                 Node::Setting(setting) => {
-                    self.state.settings.set(setting);
+                    setting.set(&mut self.state.settings);
                 }
                 Node::Other(statement) => self.statement(statement),
                 Node::Branches { head, tested, parts } => {

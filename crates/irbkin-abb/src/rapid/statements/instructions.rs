@@ -186,7 +186,7 @@ impl<'a> StatementReader<'a> {
         let first_word = self.tokens.text_of(first);
         let instruction = Instruction::new(first_word, name, arguments.owned(first.start));
         let effect = instruction.effect;
-        let is_read = effect == Effect::Sets && self.settings.set(&instruction);
+        let is_read = effect == Effect::Sets && instruction.set(&mut self.settings);
         let of = if is_read { StatementKind::Setting } else { StatementKind::Instruction };
         let line = self.add(first, of(Box::new(instruction)));
         match effect {
