@@ -69,7 +69,8 @@ pub enum Explanation {
     },
     /// Solutions exist, none inside the limits.
     #[error(
-        "all {solutions} outside limits; nearest: J{joint} by {:.1} deg", .excess.to_degrees()
+        "no solution inside the limits ({solutions} outside); nearest: J{joint} by {:.1} deg",
+        .excess.to_degrees()
     )]
     OutsideLimits {
         /// All solutions.
@@ -82,7 +83,8 @@ pub enum Explanation {
     /// Solutions exist, none inside the limits: only the linkage of coupled axes 2 and 3 keeps the
     /// best of them out.
     #[error(
-        "all {solutions} outside limits; nearest: the linkage (serial joint 3) by {:.1} deg",
+        "no solution inside the limits ({solutions} outside); nearest: the linkage (serial joint 3) \
+         by {:.1} deg",
         .excess.to_degrees()
     )]
     OutsideLinkage {
@@ -118,8 +120,7 @@ pub enum Explanation {
     },
     /// Solutions inside the limits exist, none with this arm angle.
     #[error(
-        "no solution inside the limits has the arm angle {:.3} deg (ik_nearest takes any)",
-        .arm_angle.to_degrees()
+        "no solution inside the limits has the arm angle {:.3} deg", .arm_angle.to_degrees()
     )]
     NoArmAngle {
         /// The arm angle [rad].
