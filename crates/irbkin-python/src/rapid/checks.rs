@@ -250,7 +250,10 @@ fn record(
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let letters: usize = names.iter().map(|name| name.len()).sum();
         *left = left.saturating_sub(letters.saturating_mul(unknown.len()));
-        let close = close_names(unknown, &names);
+        let close = match finding.code {
+            Code::UnknownSpeed | Code::UnknownZone => beside(unknown, &names),
+            _ => close_names(unknown, &names),
+        };
         if !close.is_empty() {
             finding.message = format!("{}; did you mean {}?", finding.message, close.join(", "));
         } else if finding.code == Code::UnknownTool {
@@ -258,6 +261,20 @@ fn record(
         }
     }
     Finding::of(py, &finding)
+}
+
+/// The names with the next lower and the next higher number, v200 and v300 of v250; those that are
+/// spelled alike, if a name is no number behind a letter.
+fn beside<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
+    let number = |name: &str| name.get(1..)?.parse::<u32>().ok();
+    let Some(own) = number(wanted) else { return close_names(wanted, known) };
+    let is_alike = |it: &&&str| {
+        it.get(..1).zip(wanted.get(..1)).is_some_and(|(a, b)| a.eq_ignore_ascii_case(b))
+    };
+    let numbered = || known.iter().filter(is_alike).filter_map(|it| Some((number(it)?, *it)));
+    let lower = numbered().filter(|(it, _)| *it < own).max();
+    let higher = numbered().filter(|(it, _)| *it > own).min();
+    [lower, higher].into_iter().flatten().map(|(_, name)| name).collect()
 }
 
 /// Every code of a check: code, name, severity, whether it is shown without a selection.
