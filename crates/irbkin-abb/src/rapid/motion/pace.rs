@@ -4,12 +4,15 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 use alloc::{format, vec};
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::drive::Made;
 use super::goal::Goal;
 use super::joints::Samples;
 use crate::Error;
 use crate::rapid::data::finding::{Code, Finding};
-use crate::rapid::motion::thresholds::JOINED_MOVES;
+use crate::rapid::motion::thresholds::{JOINED_MOVES, MOST_ACCELERATION};
 use irbkin_motion::internal::{
     LEAST_WAY, LIMIT_ROUNDING, MOST_DURATION, MotionFault, evenly, within_times,
 };
@@ -24,12 +27,14 @@ pub(super) struct Pace<'a, 'm, const N: usize> {
     pub(super) findings: &'a mut Vec<Finding>,
 }
 
-/// A joint that is too fast at the programmed speed.
+/// A joint that is too fast at the programmed speed, or at what the length of a line allows.
 #[derive(Clone, Copy)]
 struct TooFast {
     joint: usize,
     /// Its speed as a part of its limit [1].
     excess: f64,
+    /// The speed that the length allows there, if it is below the programmed one [m/s].
+    allowed: Option<f64>,
 }
 
 impl<const N: usize> Pace<'_, '_, N> {
@@ -104,7 +109,7 @@ impl<const N: usize> Pace<'_, '_, N> {
             }
             None
         } else if goal.is_cartesian() {
-            self.add_cartesian(intervals, speed, least)
+            self.add_cartesian(index, speed, least)
         } else {
             let programmed =
                 goal.time.unwrap_or_else(|| (sums[0] / speed[0]).max(sums[1] / speed[1]));
@@ -112,17 +117,20 @@ impl<const N: usize> Pace<'_, '_, N> {
             // Without \T a joint move is as slow as its slowest joint.
             too_fast.filter(|_| goal.time.is_some())
         };
-        if let Some(TooFast { joint, excess }) = too_fast {
+        if let Some(TooFast { joint, excess, allowed }) = too_fast {
             let bound = self.max_velocity[joint - 1];
             let value = bound * excess;
-            let of = if speed[0].is_finite() {
-                format!("{:.0} mm/s", speed[0] * 1e3)
+            let reached = allowed.unwrap_or(speed[0]) * 1e3;
+            let of =
+                if reached.is_finite() { format!("{reached:.0} mm/s") } else { "it".to_string() };
+            let at = if allowed.is_some() {
+                "at the speed that its length allows"
             } else {
-                "it".to_string()
+                "at the programmed speed"
             };
             let words = format!(
-                "J{joint} must turn at {:.1} deg/s at the programmed speed, its limit is {:.1} \
-                 deg/s: slowed down to {:.0} % of {of}",
+                "J{joint} must turn at {:.1} deg/s {at}, its limit is {:.1} deg/s: slowed down to \
+                 {:.0} % of {of}",
                 value.to_degrees(),
                 bound.to_degrees(),
                 excess.recip() * 1e2
@@ -134,26 +142,38 @@ impl<const N: usize> Pace<'_, '_, N> {
 
     /// A line or an arc: each interval takes what the programmed speeds and the joints need
     /// (eq. 31).
-    fn add_cartesian(
-        &self,
-        intervals: core::ops::Range<usize>,
-        speed: [f64; 2],
-        least: &mut [f64],
-    ) -> Option<TooFast> {
+    fn add_cartesian(&self, index: usize, speed: [f64; 2], least: &mut [f64]) -> Option<TooFast> {
         let mut too_fast = None;
         let mut most = 1.0 + LIMIT_ROUNDING;
+        let intervals = self.samples.intervals(index);
+        let is_timed = self.goals[index].time.is_some();
+        let starts = !is_timed && index > 0 && self.goals[index - 1].stops;
+        let stops = !is_timed && self.goals[index].stops;
+        let total: f64 = self.samples.ways[intervals.clone()].iter().map(|way| way[0]).sum();
+        let mut gone = 0.0;
+        // The time that the tool takes for a way, from rest or to rest.
+        let time = |way: f64| (2.0 * way.max(0.0) / MOST_ACCELERATION).sqrt();
         for sample in intervals {
             let [length, angle] = self.samples.ways[sample];
             let programmed = (length / speed[0]).max(angle / speed[1]);
             let (joint, needed) = self.slowest(sample);
             least[sample - 1] = programmed.max(needed);
-            let excess = needed / programmed;
+            let mut duration = programmed;
+            if starts {
+                duration = duration.max(time(gone + length) - time(gone));
+            }
+            gone += length;
+            if stops {
+                duration = duration.max(time(total - gone + length) - time(total - gone));
+            }
+            let excess = needed / duration;
             // Of a speed that was left out nothing can be too fast.
             let is_known = programmed > 0.0 && (length == 0.0 || speed[0].is_finite());
             // Nor where the rounding of joints is more than what the tool goes.
             let is_known = is_known && (length > LEAST_WAY || angle > JOINED_MOVES);
             if is_known && excess > most {
-                (most, too_fast) = (excess, Some(TooFast { joint, excess }));
+                let allowed = (duration > programmed).then(|| length / duration);
+                (most, too_fast) = (excess, Some(TooFast { joint, excess, allowed }));
             }
         }
         too_fast
@@ -180,8 +200,11 @@ impl<const N: usize> Pace<'_, '_, N> {
             least[sample - 1] = self.slowest(sample).1 * slower;
         }
         let excess = total / programmed;
-        (programmed > 0.0 && excess > 1.0 + LIMIT_ROUNDING)
-            .then_some(TooFast { joint: longest.0, excess })
+        (programmed > 0.0 && excess > 1.0 + LIMIT_ROUNDING).then_some(TooFast {
+            joint: longest.0,
+            excess,
+            allowed: None,
+        })
     }
 
     /// With accelerations: from rest to rest, where the robot stops and where it does not go on

@@ -21,6 +21,11 @@ pub(crate) const ELBOW_ZONE: f64 = 0.0175;
 /// singularity [m]. At this distance axis 1 turns by 57 deg for each millimeter of the way.
 pub(crate) const SHOULDER_ZONE: f64 = 1e-3;
 
+/// Acceleration of a tool on a line or an arc that is taken as possible [m/s^2]: five times gravity.
+/// The accelerations of the arms are not known. A joint that is too fast only above the speed that
+/// a tool reaches with this one, between two places where it stops, is not reported.
+pub(crate) const MOST_ACCELERATION: f64 = 50.0;
+
 /// How far the joints at the end of a move may be from those with which the next one begins [rad]:
 /// more than the rounding of two solutions of one pose near a singularity.
 pub(crate) const JOINED_MOVES: f64 = 1e-6;
