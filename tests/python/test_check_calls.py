@@ -137,3 +137,41 @@ print(took / (time.process_time() - began), grown / 1024)
     # In a second a quiet machine reads the text 100 times. Half as much again for other processes.
     assert 20 * readings < 150
     assert megabytes < 150.0
+
+
+FAR = "[[2900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+GO = f"CONST robtarget pFar:={FAR};\nPROC go(robtarget p)\nMoveJ p,v100,fine,tool0;\nENDPROC\n"
+STATION = "PROC station(num n)\ngo pFar;\nENDPROC\n"
+
+
+def test_a_target_below_calls_is_one_finding_in_every_format(tmp_path):
+    main = "MODULE Cell\nPROC main()\nstation 1;\nstation 2;\nENDPROC\nENDMODULE\n"
+    (tmp_path / "cell.mod").write_text(main)
+    other = tmp_path / "other.mod"
+    other.write_text(f"MODULE Other\n{STATION}{GO}ENDMODULE\n")
+    calls = [(str(tmp_path / "cell.mod"), line) for line in (3, 4)]
+
+    def written(form):
+        given = ("--output-format", form, "--robot", NAME, tmp_path)
+        return command.run("check", *given).stdout.decode()
+
+    [found] = json.loads(written("json"))["findings"]
+    assert (found["code"], found["file"], found["line"]) == ("R101", str(other), 3)
+    assert found["message"].endswith(" (called from Cell:3:1, Cell:4:1)")
+    assert [(it["file"], it["line"]) for it in found["related"]] == calls
+    [result] = json.loads(written("sarif"))["runs"][0]["results"]
+    assert result["message"]["text"] == found["message"]
+    assert len(result["relatedLocations"]) == 2
+    for form in ("text", "concise", "github"):
+        assert written(form).count("R101 go pFar") == 1
+    assert written("junit").count("<failure") == 1
+
+
+@pytest.mark.parametrize(
+    ("speed", "zone", "meant"),
+    [("v250", "fine", "v200, v300"), ("v75", "fine", "v60, v80"), ("v100", "z25", "z20, z30")],
+)
+def test_a_speed_or_a_zone_that_nothing_declares_is_between_numbers(tmp_path, speed, zone, meant):
+    move = f"MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],{speed},{zone},tool0;"
+    [(_, _, message)] = found(tmp_path, f"{move}\nrOpenGripper;")
+    assert message.endswith(f"did you mean {meant}?")

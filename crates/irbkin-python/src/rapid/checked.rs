@@ -44,7 +44,8 @@ record! {
         /// The corrections: index of the module, first byte and end in its `source` as UTF-8, and
         /// the text that takes their place. Empty if nothing corrects it.
         edits: Py<PyTuple>,
-        /// Where else its cause shows: index of the module, line and column, both from 1.
+        /// Where else its cause shows, and the calls that lead to it: index of the module, line and
+        /// column, both from 1.
         related: Py<PyTuple>,
     }
 }
@@ -81,8 +82,8 @@ record! {
     Checked {
         /// The findings, in the order of the modules and of their texts: a tuple of `Finding`.
         findings: Py<PyTuple>,
-        /// The moves in the same order, passes of a loop as one; those below a call that they
-        /// depend on have its place, and are as many as there are: a tuple of `CheckedMove`.
+        /// The moves in the same order, passes of a loop as one; those that depend on calls are at
+        /// the innermost text of their target, one for each call: a tuple of `CheckedMove`.
         moves: Py<PyTuple>,
     }
 }

@@ -1,6 +1,6 @@
 //! All moves of a program, checked.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use super::carried::{Carried, carried_by, carriers};
 use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
 use super::corners::Zones;
-use super::findings::{Seen, add_once, sorted};
+use super::findings::{Case, sorted};
 use super::fixes::{Demand, Finder};
 use super::undeclared::undeclared;
 use crate::Error;
@@ -59,7 +59,7 @@ pub struct CheckOptions<'a, const N: usize = 6> {
 }
 
 /// A move of the program: an instruction, and the chain of calls to it where it moves to what they
-/// pass on; its place is the first of these calls then.
+/// pass on; its place is the innermost text that has the target.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CheckedMove<const N: usize = 6> {
     /// The module among those that are checked, from 0.
@@ -144,9 +144,9 @@ pub fn check<const N: usize>(
         finder: Finder { program: &program, sources: &sources },
         ends: Vec::new(),
         found: Vec::new(),
-        seen: Seen::new(),
         demands: Vec::new(),
         moves: Vec::new(),
+        cases: BTreeSet::new(),
     };
     for run in &runs {
         checker.add(run)?;
@@ -154,12 +154,7 @@ pub fn check<const N: usize>(
     checker.found.extend(notes);
     let CheckOptions { is_whole, of_system, interrupt, .. } = *options;
     checker.found.extend(undeclared(&modules, &sources, is_whole, of_system, interrupt)?);
-    let Checker { found, demands, mut moves, .. } = checker;
-    let mut cases = BTreeMap::new();
-    for ([_, home, index], it) in &moves {
-        let place = [it.module, it.line, it.column];
-        *cases.entry((place, (*home, *index))).or_insert(0) += 1;
-    }
+    let Checker { found, demands, mut moves, cases, .. } = checker;
     // A move is not checked if it is not in one of its passes.
     let place = |it: &CheckedMove<N>| (it.module, it.line, it.column);
     moves.sort_by_key(|(by, it)| {
@@ -167,7 +162,7 @@ pub fn check<const N: usize>(
     });
     moves.dedup_by_key(|(by, it)| (place(it), *by));
     let moves = moves.into_iter().map(|(_, it)| it).collect();
-    Ok(Checked { findings: sorted(found, &demands, &cases), moves })
+    Ok(Checked { findings: sorted(found, &demands, &cases, &modules), moves })
 }
 
 /// A move that is not followed, as one that is not checked.
@@ -194,15 +189,20 @@ fn resting<const N: usize>(
     let of = |index: usize| goals.get(index).and_then(|goal| goal.stepped.assumed.clone());
     let start = || if index == 0 { before.cloned() } else { of(index - 1) };
     let assumed = match id {
-        "D702" | "Z502" => None,
+        "D702" | "Z502" => finding.assumed.clone(),
         _ if finding.unknown.is_some() || id.starts_with('U') => None,
         "C202" | "R103" | "R104" | "R105" | "R107" => of(index).or_else(start),
         _ if id.starts_with(['K', 'S', 'V', 'Z']) => of(index).or_else(start),
         _ => of(index),
     };
     let Some(Goal { stepped, .. }) = goals.get(index) else { return finding };
-    let (module, instruction) = (stepped.module, stepped.instruction);
-    Finding { module, assumed, instruction, case: stepped.case.clone(), ..finding }
+    let (module, instruction, case) = (stepped.module, stepped.instruction, stepped.case.clone());
+    let calls: Vec<_> = stepped.call.iter().map(|it| it.place).collect();
+    let cause = match finding.cause.as_str() {
+        "" if !calls.is_empty() => format!("{instruction:?} {}", finding.message),
+        _ => finding.cause,
+    };
+    Finding { module, assumed, cause, case, instruction, calls, ..finding }
 }
 
 /// The joints at the target of a move, and what it rests on.
@@ -222,10 +222,10 @@ struct Checker<'a, 'm, const N: usize> {
     /// The ends of the moves of each run.
     ends: Vec<Vec<End<N>>>,
     found: Vec<Finding>,
-    seen: Seen,
     demands: Vec<Demand>,
     /// The moves with the chain of calls, the module and the index of the instruction.
     moves: Vec<([usize; 3], CheckedMove<N>)>,
+    cases: BTreeSet<Case>,
 }
 
 impl<const N: usize> Checker<'_, '_, N> {
@@ -239,7 +239,7 @@ impl<const N: usize> Checker<'_, '_, N> {
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
         for finding in unfollowed {
             self.moves.push(([0, finding.module, usize::MAX], unfollowed_move(finding)));
-            add_once(&mut self.found, &mut self.seen, finding.clone());
+            self.found.push(finding.clone());
         }
         // Where the confdata of a move is wrong.
         let mut wrong: Vec<Option<usize>> = goals.iter().map(|_| None).collect();
@@ -262,11 +262,7 @@ impl<const N: usize> Checker<'_, '_, N> {
                 finding = with_nearest(self.robots[1], finding, goal, &q);
             }
             let finding = resting(self.worded(finding, goal, is_wrong), goals, assumed.as_ref());
-            if is_wrong {
-                self.found.push(finding);
-            } else {
-                add_once(&mut self.found, &mut self.seen, finding);
-            }
+            self.found.push(finding);
         }
         for (index, goal) in
             goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
@@ -297,9 +293,12 @@ impl<const N: usize> Checker<'_, '_, N> {
                 assumed: unchecked[index].is_none() && goal.stepped.assumed.is_some(),
             };
             self.moves.push(([goal.stepped.chain, home, instruction], own));
+            let call = goal.stepped.call.as_ref().map(|it| it.place);
+            let (place, case) = ((module, line, column), goal.stepped.case.clone());
+            self.cases.insert((place, (home, instruction), call, case));
             let mut found = |finding: Finding| {
                 let finding = resting(finding.at(goal.step, index), goals, assumed.as_ref());
-                add_once(&mut self.found, &mut self.seen, finding);
+                self.found.push(finding);
             };
             zones.checked(index).for_each(&mut found);
             let (Some(Place::Tool(_, wanted)), Some(q)) = (goal.place, made[index].q) else {

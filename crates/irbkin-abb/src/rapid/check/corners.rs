@@ -1,6 +1,7 @@
 //! Corners of moves that follow one another: zones, targets next to each other, circles.
 
 use alloc::format;
+use alloc::string::ToString;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
@@ -11,6 +12,7 @@ use crate::rapid::data::value::Value;
 use crate::rapid::motion::drive::Made;
 use crate::rapid::motion::goal::{Goal, Place};
 use crate::rapid::motion::joints::way;
+use crate::rapid::program::walker::END_OF_MAIN;
 use irbkin::internal::angle_between;
 use irbkin::{Pose, Robot};
 use irbkin_motion::internal::{LEAST_WAY, Leg};
@@ -65,7 +67,11 @@ impl<const N: usize> Zones<'_, '_, N> {
             goal.step.zone,
             zone.position * 1e3,
         );
-        Some(Finding::new(Code::CornerPath, words).with_value(zone.position, 0.0))
+        let routine = goal.step.routine.as_deref().unwrap_or_default();
+        let cause = format!("{} {routine}", goal.stepped.module);
+        let assumed = (halt == END_OF_MAIN).then(|| "the run mode single cycle".to_string());
+        let finding = Finding { assumed, ..Finding::new(Code::CornerPath, words) };
+        Some(finding.with_value(zone.position, 0.0).caused_by(cause))
     }
 
     /// An external axis that the target before has and this one has not, or the reverse.

@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::findings::listed;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::fit::misfit;
 use crate::rapid::data::instructions::Effect;
@@ -192,12 +193,6 @@ fn known_slips(found: &[Finding], modules: &[&Module]) -> Vec<String> {
     let known: Vec<&str> = routines.chain(Entry::all().map(|it| it.0)).collect();
     let slips = unknown.filter(|name| known.iter().any(|it| is_slip(it, name)));
     slips.map(ToString::to_string).collect()
-}
-
-/// The first of some names.
-fn listed(names: &[String]) -> String {
-    let shown = names[..names.len().min(5)].join(", ");
-    if names.len() > 5 { format!("{shown} and {} more", names.len() - 5) } else { shown }
 }
 
 /// The names in lower case behind the first words of what is not read: a routine may be declared

@@ -189,6 +189,9 @@ impl Code {
     }
 }
 
+/// A module among those that are checked, from 0, a line and a column, from 1.
+pub(crate) type Place = (usize, usize, usize);
+
 /// A part of a text, replaced.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
@@ -240,8 +243,11 @@ pub struct Finding {
     pub(crate) case: String,
     /// The module and the index of the instruction that the case is of.
     pub(crate) instruction: (usize, usize),
-    /// Where else its cause shows: modules, lines and columns.
-    pub related: Vec<(usize, usize, usize)>,
+    /// The calls that lead to it with arguments, each the first of a chain, if the move depends on
+    /// these.
+    pub(crate) calls: Vec<Place>,
+    /// Where else its cause shows, and the calls that lead to it: modules, lines and columns.
+    pub related: Vec<Place>,
     /// The corrections, in the order of the text; empty where nothing corrects it.
     pub edits: Vec<Edit>,
 }
@@ -266,6 +272,7 @@ impl Finding {
             cause: String::new(),
             case: String::new(),
             instruction: (0, 0),
+            calls: Vec::new(),
             related: Vec::new(),
             edits: Vec::new(),
         }
@@ -290,6 +297,10 @@ impl Finding {
     #[must_use]
     pub fn severity(&self) -> Severity {
         if self.assumed.is_some() { Severity::Note } else { self.code.severity() }
+    }
+
+    pub(crate) fn place(&self) -> Place {
+        (self.module, self.line, self.column)
     }
 
     pub(crate) fn caused_by(self, cause: String) -> Self {

@@ -6,11 +6,10 @@ use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::mem;
-use core::ops::Range;
 
 use super::cases::Known;
 use super::effects::{Acts, MOST_CALLED};
-use super::frame::{Frame, Site};
+use super::frame::{Frame, Site, Text};
 use super::state::{Local, Locals, MOST_KNOWN};
 use super::values::Calls;
 use super::walker::Walk;
@@ -83,7 +82,8 @@ impl Calls for Walk<'_, '_> {
         walk.questions.set(self.questions.get());
         walk.steps_left = self.steps_left.saturating_sub(self.inside.get());
         let left = walk.steps_left;
-        let bound = walk.bound((text, 0), program.parameters(home, &name), &call.arguments);
+        let (written, parameters) = ((text, 0, &Rc::default()), program.parameters(home, &name));
+        let bound = walk.bound(written, parameters, &call.arguments);
         walk.state.locals = program.locals_of(home, &name, Some(bound.given));
         walk.frame = Frame {
             result: Some(data_type),
@@ -144,30 +144,28 @@ impl<'m> Walk<'_, 'm> {
             }
             return;
         }
-        let written = (skipped.text.as_str(), skipped.start);
+        let site = Rc::new(Site {
+            place: (self.frame.module, skipped.line, skipped.column),
+            routine: skipped.routine.as_deref().map(String::from),
+            called: skipped.kind.word().to_string(),
+        });
+        let written = (skipped.text.as_str(), skipped.start, &site);
         let bound = self.bound(written, parameters, &instruction.arguments);
-        self.enter(skipped, (home, name), bound, parameters);
+        let first = self.frame.site.clone().unwrap_or(site);
+        let site = Some(first).filter(|_| !parameters.is_empty());
+        self.enter((skipped.start, site), (home, name), bound);
     }
 
     /// Follow a routine with its arguments.
     fn enter(
         &mut self,
-        skipped: &Statement,
+        (start, site): (usize, Option<Rc<Site>>),
         (home, name): (usize, String),
         bound: Bound,
-        parameters: &[Parameter],
     ) {
         let Bound { given, absent, present, texts, names } = bound;
-        let own_site = || Site {
-            module: self.frame.module,
-            line: skipped.line,
-            column: skipped.column,
-            routine: skipped.routine.as_deref().map(String::from),
-            called: skipped.kind.word().to_string(),
-        };
-        let site = self.frame.site.clone().or_else(|| Some(own_site()));
         let next = self.chains.len() + 1;
-        let call = (self.frame.chain, self.frame.module, skipped.start);
+        let call = (self.frame.chain, self.frame.module, start);
         let chain = *self.chains.entry(call).or_insert(next);
         let before: Locals = given.iter().cloned().collect();
         let locals = self.program.locals_of(home, &name, Some(given));
@@ -175,7 +173,7 @@ impl<'m> Walk<'_, 'm> {
         let frame = Frame {
             module: home,
             routine: name,
-            site: site.filter(|_| !parameters.is_empty()),
+            site,
             chain,
             absent,
             present,
@@ -232,7 +230,7 @@ impl<'m> Walk<'_, 'm> {
     /// The parameters of a routine with the arguments of a call.
     fn bound(
         &mut self,
-        written: (&str, usize),
+        written: (&str, usize, &Rc<Site>),
         parameters: &[Parameter],
         arguments: &Arguments<'_>,
     ) -> Bound {
@@ -258,7 +256,7 @@ impl<'m> Walk<'_, 'm> {
     /// Put an argument in for a parameter.
     fn bind(
         &mut self,
-        (whole, start): (&str, usize),
+        (whole, start, site): (&str, usize, &Rc<Site>),
         parameter: &Parameter,
         value: Option<&Expression<'_>>,
         bound: &mut Bound,
@@ -297,9 +295,12 @@ impl<'m> Walk<'_, 'm> {
         let words = format!("{} is {text}", parameter.name);
         let known = Known::of_ways(ways, Result::ok, &words);
         let content = known.ok_or(unknown.unwrap_or(Unresolved::ValueNotKnown));
-        let own = (text.to_string(), self.frame.module, start + value.start..start + value.end);
-        let above = name.as_ref().and_then(|(name, _)| self.frame.texts.get(name).cloned());
-        bound.texts.insert(parameter.name.clone(), above.unwrap_or(own));
+        let argument = self.frame.argument(text).unwrap_or_else(|| Text {
+            written: text.to_string(),
+            span: start + value.start..start + value.end,
+            site: site.clone(),
+        });
+        bound.texts.insert(parameter.name.clone(), argument);
         if let (true, Some((name, _))) = (parameter.is_reference, name) {
             bound.names.push((parameter.name.clone(), name));
         }
@@ -313,7 +314,7 @@ struct Bound {
     given: Vec<(String, Local)>,
     absent: BTreeSet<String>,
     present: BTreeSet<String>,
-    texts: BTreeMap<String, (String, usize, Range<usize>)>,
+    texts: BTreeMap<String, Text>,
     /// Parameters by reference, with the names of their arguments.
     names: Vec<(String, String)>,
 }

@@ -2,7 +2,8 @@
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
-use alloc::string::String;
+use alloc::rc::Rc;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -11,15 +12,23 @@ use crate::rapid::data::moves::Move;
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::DataType;
 
-/// The call that a routine's moves are placed at where they depend on its arguments.
-#[derive(Clone)]
-pub(super) struct Site {
-    pub(super) module: usize,
-    pub(super) line: usize,
-    pub(super) column: usize,
+/// A call of a routine.
+#[derive(Default)]
+pub(in crate::rapid) struct Site {
+    /// Its module, line and column.
+    pub(in crate::rapid) place: (usize, usize, usize),
     pub(super) routine: Option<String>,
     /// The routine that it calls, as it is written.
     pub(super) called: String,
+}
+
+/// An argument as it is written, and the call whose text has it.
+#[derive(Clone)]
+pub(super) struct Text {
+    pub(super) written: String,
+    /// Its bytes; none if it refers to an argument of that call.
+    pub(super) span: Range<usize>,
+    pub(super) site: Rc<Site>,
 }
 
 /// The routine that is followed.
@@ -28,7 +37,8 @@ pub(super) struct Frame {
     pub(super) module: usize,
     /// Its name in lower case.
     pub(super) routine: String,
-    pub(super) site: Option<Site>,
+    /// The first of the calls that lead to it with arguments.
+    pub(super) site: Option<Rc<Site>>,
     /// The number of the chain of calls that leads here, from 1; 0 of a routine that nothing calls.
     pub(super) chain: usize,
     /// The number of this call among all.
@@ -40,8 +50,8 @@ pub(super) struct Frame {
     /// Its optional parameters that no argument was given for, and its others that have one.
     pub(super) absent: BTreeSet<String>,
     pub(super) present: BTreeSet<String>,
-    /// The text of its arguments, with their modules and bytes, by the names of its parameters.
-    pub(super) texts: BTreeMap<String, (String, usize, Range<usize>)>,
+    /// Its arguments by the names of its parameters.
+    pub(super) texts: BTreeMap<String, Text>,
 }
 
 impl Frame {
@@ -58,24 +68,43 @@ impl Frame {
     pub(super) fn named(&self, reason: Reason) -> Reason {
         match reason {
             Reason::Reference { name, why } => {
-                let text = self.texts.get(&name.to_lowercase()).map(|(text, ..)| text.clone());
+                let text = self.texts.get(&name.to_lowercase()).map(|it| it.written.clone());
                 Reason::Reference { name: text.unwrap_or(name), why }
             }
             reason => reason,
         }
     }
 
-    /// Place a move at the call that it depends on.
-    pub(super) fn place(&self, site: &Site, step: &mut Move) {
-        (step.line, step.column) = (site.line, site.column);
+    /// The argument that a text is or, by its first name that is not one of a function, refers to.
+    pub(super) fn argument(&self, text: &str) -> Option<Text> {
+        let lower = text.to_lowercase();
+        if let Some(argument) = self.texts.get(lower.as_str()) {
+            return Some(argument.clone());
+        }
+        let is_delimiter = |it: char| !(it.is_alphanumeric() || it == '_');
+        let mut words = lower.split_inclusive(is_delimiter);
+        let named = words.find(|it| it.starts_with(char::is_alphabetic) && !it.ends_with('('))?;
+        let site = self.texts.get(named.trim_end_matches(is_delimiter))?.site.clone();
+        Some(Text { written: text.to_string(), span: 0..0, site })
+    }
+
+    /// Place a move, as it is written here, at the call whose text has its target, unless its own
+    /// has it; the module of its place.
+    pub(super) fn place(&self, written: &Move, step: &mut Move) -> usize {
+        let target = self.argument(&written.target.text);
+        let via = written.via.as_ref().and_then(|via| self.argument(&via.text));
+        let Some(site) = target.as_ref().or(via.as_ref()).map(|it| it.site.clone()) else {
+            return self.module;
+        };
+        let module;
+        (module, step.line, step.column) = site.place;
         step.routine.clone_from(&site.routine);
         step.instruction.clone_from(&site.called);
         step.target.span = 0..0;
-        if let Some((text, module, span)) = self.texts.get(&step.target.text.to_lowercase()) {
-            step.target.text.clone_from(text);
-            if *module == site.module {
-                step.target.span = span.clone();
-            }
+        if let Some(target) = target {
+            step.target.text = target.written;
+            step.target.span = target.span;
         }
+        module
     }
 }

@@ -85,8 +85,8 @@ impl Scope<'_, '_> {
         match self.record(text) {
             Ok(value) => {
                 argument.value = Ok(value);
-                if let Some((given, ..)) = self.frame.texts.get(&text.trim().to_lowercase()) {
-                    argument.text.clone_from(given);
+                if let Some(given) = self.frame.texts.get(&text.trim().to_lowercase()) {
+                    argument.text.clone_from(&given.written);
                 }
             }
             // The reader knows better why, except of parameters and of lines that it does not name.

@@ -16,7 +16,7 @@ use super::moves::place_behind;
 use super::state::{Displacement, Here, State};
 use super::tree::{Block, Node, Part};
 use super::values::Calls as _;
-use super::walker::{Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
+use super::walker::{END_OF_MAIN, Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
 use crate::rapid::data::expression::{Expression, Name};
 use crate::rapid::data::finding::{Code, Finding};
@@ -77,7 +77,7 @@ impl<'m> Walk<'_, 'm> {
         self.frame = Frame::of(module, routine);
         self.routine();
         if self.frame.routine == "main" {
-            self.halt("the end of main");
+            self.halt(END_OF_MAIN);
         }
     }
 
@@ -341,9 +341,10 @@ impl<'m> Walk<'_, 'm> {
         self.state.displace(&mut own);
         self.state.place = place_behind(&own, written);
         let (mut module, mut chain) = (self.frame.module, 0);
-        if is_passed_on && let Some(site) = self.frame.site.clone() {
-            (module, chain) = (site.module, self.frame.chain);
-            self.frame.place(&site, own.to_mut());
+        let call = self.frame.site.clone().filter(|_| is_passed_on);
+        if call.is_some() {
+            module = self.frame.place(written, own.to_mut());
+            chain = self.frame.chain;
         }
         let instruction = (self.frame.module, index);
         let displaced_on = match self.state.displacement {
@@ -356,7 +357,7 @@ impl<'m> Walk<'_, 'm> {
             Cow::Owned(step) => Filled::Other(Box::new(step)),
         };
         let assumed = assumed.map(|it| it.to_string());
-        Stepped { module, instruction, step, chain, case, assumed, halt, displaced_on }
+        Stepped { module, instruction, step, chain, call, case, assumed, halt, displaced_on }
     }
 
     /// Something that is no move and no branch.

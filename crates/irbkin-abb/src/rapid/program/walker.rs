@@ -11,7 +11,7 @@ use core::ops::Deref;
 use nalgebra::Vector3;
 
 use super::cases::{Case, Choices, MOST_CASES, Way};
-use super::frame::Frame;
+use super::frame::{Frame, Site};
 use super::state::{Here, State};
 use super::tree::{Block, Node, size};
 use super::values::Scope;
@@ -39,6 +39,9 @@ pub(super) const MOVE: usize = 5;
 /// Copies of what is known of a datum that take as long as a statement.
 const COPIED: usize = 8;
 
+/// What ends the program, in words, unless that runs in a cycle.
+pub(in crate::rapid) const END_OF_MAIN: &str = "the end of main";
+
 /// A step of a program.
 pub(in crate::rapid) enum Step<'m> {
     /// A move.
@@ -49,14 +52,15 @@ pub(in crate::rapid) enum Step<'m> {
 
 /// A move with the values that it has here.
 pub(in crate::rapid) struct Stepped<'m> {
-    /// The module of its place, which is the call of the routine that it belongs to where it moves
-    /// to what that call passes on.
+    /// The module of its place, which is the call whose text has its target where that is passed on.
     pub(in crate::rapid) module: usize,
     /// The module and the index of the instruction.
     pub(in crate::rapid) instruction: (usize, usize),
     pub(in crate::rapid) step: Filled<'m>,
-    /// The chain of calls to it where its place is a call, whose moves it tells apart; else 0.
+    /// The chain of calls to it where its target depends on what they pass on; else 0.
     pub(in crate::rapid) chain: usize,
+    /// The first of these calls.
+    pub(in crate::rapid) call: Option<Rc<Site>>,
     /// Which of its values these are, in words; empty of the only ones.
     pub(in crate::rapid) case: String,
     /// The first value that it rests on although the program does not determine it, in words.

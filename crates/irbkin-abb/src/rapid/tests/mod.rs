@@ -2,6 +2,7 @@
 
 mod assigned;
 mod build;
+mod calls;
 mod cases;
 mod check;
 mod direct;
