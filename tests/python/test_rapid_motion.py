@@ -144,7 +144,8 @@ def test_a_line_that_leaves_the_limits_is_found_and_the_next_one_goes_on():
         f"MoveL {target((-700, -300, 600), conf=(-2, 0, -2, 0))},v100,fine,t;"
     )
     assert names(motion) == ["path-blocked"]
-    assert "at 43 % of the way, no solution inside the limits (8 outside); nearest: J2" in motion.findings[0].message
+    words = "at 43 % of the way, no solution inside the limits (8 outside); nearest: J2"
+    assert words in motion.findings[0].message
     assert motion.findings[0].joint == 2
     assert motion.findings[0].value > motion.findings[0].bound == 0
     assert [step.as_programmed for step in motion.moves] == [True, True, False, True]
