@@ -174,8 +174,8 @@ def test_a_given_angle_outside_its_limits_leaves_no_solution_inside():
     solutions = locked.ik(T)
     assert len(solutions)
     assert not len(solutions.within_limits())
-    assert "outside limits" in locked.check_pose(T).reason
-    with pytest.raises(irbkin.UnreachableError, match="outside limits"):
+    assert "no solution inside the limits" in locked.check_pose(T).reason
+    with pytest.raises(irbkin.UnreachableError, match="no solution inside the limits"):
         locked.ik_nearest(T, q)
 
 
