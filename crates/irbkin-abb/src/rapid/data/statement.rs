@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-use super::expression::{Arguments, Expression, Form, Relation};
+use super::expression::{Arguments, Expression, Form, Operator, Relation};
 use super::instructions::Effect;
 use super::lookup::written_argument;
 use super::settings::MotionSettings;
@@ -134,6 +134,23 @@ impl Instruction {
             arguments,
             written,
         }
+    }
+
+    /// What it assigns, if it counts.
+    pub(crate) fn counted(&self) -> Option<Assignment> {
+        let mut arguments = self.arguments.required.iter();
+        let target = arguments.next()?.clone();
+        let one = Expression { form: Form::Number(1.0), ..target };
+        let (operator, operand) = match self.name.as_deref()? {
+            "incr" => (Operator::Plus, one),
+            "decr" => (Operator::Minus, one),
+            "add" => (Operator::Plus, arguments.next()?.clone()),
+            _ => return None,
+        };
+        let form = Form::Chain(Box::new(target.clone()), Vec::from([(operator, operand)]));
+        let value = Expression { form, ..target };
+        let to = self.written.clone()?;
+        Some(Assignment { name: to.0.clone(), target, value, to })
     }
 
     /// Set how moves are made, if it sets that. Returns whether it does.

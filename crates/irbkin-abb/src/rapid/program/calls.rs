@@ -18,6 +18,7 @@ use crate::rapid::data::expression::{Arguments, Call, Expression};
 use crate::rapid::data::module::{Content, Parameter, Storage};
 use crate::rapid::data::statement::{Instruction, Statement};
 use crate::rapid::data::unread::{Reason, Unresolved};
+use crate::rapid::data::value::{DataType, Value};
 
 /// The name of what a function returns: no name of RAPID.
 const RETURNED: &str = "RETURN";
@@ -39,6 +40,11 @@ impl Program<'_> {
     ) -> Rc<Locals> {
         let data = self.locals(module, routine).map(|datum| {
             let content = match (&datum.content, datum.storage) {
+                (Content::Uninitialized { sizes }, Storage::Var)
+                    if sizes.is_empty() && datum.data_type == DataType::Num =>
+                {
+                    Ok(Known::certain(Content::Single(Value::Num(0.0)), ""))
+                }
                 (Content::Uninitialized { .. }, _) => Err(Unresolved::NoValue),
                 (_, Storage::Pers) => Err(Unresolved::ValueNotKnown),
                 (content, _) => Ok(Known::certain(content.clone(), "")),

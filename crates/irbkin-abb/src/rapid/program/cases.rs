@@ -184,15 +184,16 @@ impl Known {
         (all.len() <= MOST_CASES && !all.is_empty()).then(|| Self(Rc::new(all)))
     }
 
-    /// Whether it is not all of it so in a case.
-    pub(super) fn excludes(&self, case: &Case) -> bool {
-        self.0.iter().any(|candidate| candidate.case.excludes(case))
+    /// Whether not all of it may be so in some cases.
+    pub(super) fn excludes(&self, cases: &[Case]) -> bool {
+        self.0.iter().any(|candidate| cases.iter().all(|case| candidate.case.excludes(case)))
     }
 
-    /// Keep what may be so in a case.
-    pub(super) fn assume(&mut self, case: &Case) {
-        if self.excludes(case) {
-            Rc::make_mut(&mut self.0).retain(|candidate| !candidate.case.excludes(case));
+    /// Keep what may be so in one of some cases.
+    pub(super) fn assume(&mut self, cases: &[Case]) {
+        if self.excludes(cases) {
+            let may_be = |own: &Candidate| cases.iter().any(|case| !own.case.excludes(case));
+            Rc::make_mut(&mut self.0).retain(may_be);
         }
     }
 }
@@ -259,6 +260,11 @@ impl Choices {
     /// Rest on something that the program does not determine.
     pub(super) fn assume(&self, words: impl FnOnce() -> Rc<str>) {
         self.assumed.borrow_mut().get_or_insert_with(words);
+    }
+
+    /// Whether this way rests on something that the program does not determine.
+    pub(super) fn is_assumed(&self) -> bool {
+        self.assumed.borrow().is_some()
     }
 
     /// An answer to a question that has so many, in words if it is a new one.

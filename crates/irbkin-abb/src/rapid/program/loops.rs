@@ -17,6 +17,9 @@ use crate::rapid::data::value::Value;
 /// Most passes of a loop that are followed.
 const MOST_PASSES: usize = 1000;
 
+/// Most statements in the passes of a loop that no move and no call names the counter of.
+const MOST_UNCOUNTED: usize = 200;
+
 impl<'m> Walk<'_, 'm> {
     /// A loop: each pass where its bounds are known and it refers to its variable, else the first.
     pub(super) fn repeat(
@@ -30,7 +33,9 @@ impl<'m> Walk<'_, 'm> {
         let bounds = counter.bounds.each_ref().map(|bound| self.number(&head.text, bound));
         let step = counter.step.as_ref().map(|step| self.number(&head.text, step));
         let passes = values_of(bounds, step.flatten());
-        if !passes.is_empty() && self.affords(passes.len(), body) && (self.is_one || is_counted) {
+        let is_short = passes.len() * size(body) <= MOST_UNCOUNTED;
+        let is_followed = self.is_one || is_counted || is_short;
+        if !passes.is_empty() && self.affords(passes.len(), body) && is_followed {
             let depth = self.passes.len();
             for value in passes {
                 self.passes.truncate(depth);
@@ -73,7 +78,7 @@ impl<'m> Walk<'_, 'm> {
         if let Condition::Compared(..) = condition {
             let depth = self.passes.len();
             for pass in 1..=MOST_PASSES {
-                match self.holds(None, (&head.text, condition)) {
+                match self.holds(head, condition) {
                     Some(true) if self.affords(1, body) => {}
                     Some(false) => return,
                     _ => break,

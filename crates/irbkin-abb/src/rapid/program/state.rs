@@ -157,16 +157,16 @@ impl State {
         }
     }
 
-    /// Keep what may be so in a case.
-    pub(super) fn assume(&mut self, case: &Case) {
-        if self.globals.values().any(|known| known.excludes(case)) {
+    /// Keep what may be so in one of some cases.
+    pub(super) fn assume(&mut self, cases: &[Case]) {
+        if self.globals.values().any(|known| known.excludes(cases)) {
             let known = Rc::make_mut(&mut self.globals).values_mut();
-            known.for_each(|known| known.assume(case));
+            known.for_each(|known| known.assume(cases));
         }
-        let known = |local: &Local| local.content.as_ref().is_ok_and(|known| known.excludes(case));
+        let known = |local: &Local| local.content.as_ref().is_ok_and(|known| known.excludes(cases));
         if self.locals.values().any(known) {
             let known = Rc::make_mut(&mut self.locals).values_mut();
-            known.flat_map(|local| &mut local.content).for_each(|known| known.assume(case));
+            known.flat_map(|local| &mut local.content).for_each(|known| known.assume(cases));
         }
     }
 

@@ -3,6 +3,7 @@
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
@@ -10,6 +11,7 @@ use super::cases::{Choices, Known, MOST_CASES, Questions, saved_value};
 use super::frame::Frame;
 use super::index::DatumId;
 use super::state::{Displacement, State};
+use super::tree::Part;
 use super::whole::Program;
 use crate::rapid::calc::wrong::not_solved;
 use crate::rapid::data::expression::{Call, Expression, Form, Name};
@@ -17,7 +19,7 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Datum, Storage};
 use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::GivenTools;
-use crate::rapid::data::statement::Assignment;
+use crate::rapid::data::statement::{Assignment, Condition};
 use crate::rapid::data::types::{Atoms, Record};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
@@ -252,6 +254,76 @@ impl<'s> Scope<'s, '_> {
         expression: &Expression<'_>,
     ) -> Result<T, Reason> {
         known(self.evaluator(text).record(expression))
+    }
+
+    /// The parts of a branch that may be executed here, by their index; their number for none.
+    pub(super) fn open(
+        &self,
+        tested: Option<(&str, &Expression<'_>)>,
+        parts: &[Part<'_>],
+    ) -> Vec<usize> {
+        let mut open = Vec::new();
+        for (index, part) in parts.iter().enumerate() {
+            let holds = self.holds(tested, (&part.head.text, part.condition));
+            if holds != Some(false) {
+                open.push(index);
+            }
+            if holds == Some(true) {
+                return open;
+            }
+        }
+        open.push(parts.len());
+        open
+    }
+
+    /// Whether a condition holds here, by arguments, by what was assigned, and by constants.
+    pub(super) fn holds(
+        &self,
+        tested: Option<(&str, &Expression<'_>)>,
+        (text, condition): (&str, &Condition),
+    ) -> Option<bool> {
+        match condition {
+            Condition::Always => Some(true),
+            Condition::Never => Some(false),
+            Condition::Present(name, is_wanted) => {
+                let is_there = self.frame.present.contains(name);
+                (is_there || self.frame.absent.contains(name)).then_some(is_there == *is_wanted)
+            }
+            Condition::Compared(numbers, relation) => {
+                let operands = numbers.each_ref().map(|it| self.certain_number((text, it)));
+                let [left, right] = operands;
+                Some(relation.holds(left?, right?))
+            }
+            Condition::Case(numbers) => {
+                let own = self.certain_number(tested?)?;
+                let numbers = numbers.iter().map(|it| self.certain_number((text, it)));
+                let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+                Some(numbers.iter().any(|number| number.total_cmp(&own).is_eq()))
+            }
+            Condition::Other => None,
+        }
+    }
+
+    /// The number that an expression is here, unless a declared value counts that may be another
+    /// one when the program starts.
+    fn certain_number(&self, (text, expression): (&str, &Expression<'_>)) -> Option<f64> {
+        let mut names = Vec::new();
+        expression.collect_names(&mut names);
+        let is_certain = |name: &Name<'_>| {
+            let lower = lower(name);
+            let datum = self.program.datum(self.frame.module, &lower);
+            self.state.locals.contains_key(&*lower)
+                || datum.is_none_or(|(id, datum)| match datum.storage {
+                    Storage::Const => true,
+                    Storage::Var => self.state.globals.contains_key(&id),
+                    // Another task may assign it.
+                    Storage::Pers => false,
+                })
+        };
+        if !names.iter().all(is_certain) {
+            return None;
+        }
+        self.evaluated(text, expression).ok().filter(|_| !self.choices.is_assumed())
     }
 
     /// Whether what the declarations say of a text may not hold: it is passed to a routine that

@@ -3,7 +3,7 @@
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::{String, ToString};
@@ -18,16 +18,14 @@ use super::tree::{Block, Node, Part};
 use super::values::Calls as _;
 use super::walker::{END_OF_MAIN, Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
-use crate::rapid::data::expression::{Expression, Name};
+use crate::rapid::data::expression::Expression;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
-use crate::rapid::data::module::Storage;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::records::GivenTools;
-use crate::rapid::data::statement::{Condition, Instruction, Statement, StatementKind};
+use crate::rapid::data::statement::{Assignment, Condition, Instruction, Statement, StatementKind};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::DataType;
-use crate::rapid::expression::names::lower;
 use irbkin::{Interrupt, Interrupted};
 
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
@@ -141,99 +139,58 @@ impl<'m> Walk<'_, 'm> {
         }
     }
 
-    /// A branch: the part whose condition holds, or every part whose condition may.
+    /// A branch: in each case the part whose condition holds, or every part whose condition may.
     fn branches(
         &mut self,
         head: &'m Statement,
         tested: Option<&Expression<'m>>,
         parts: &[Part<'m>],
     ) {
-        let (mut open, mut is_passed) = (Vec::new(), true);
         let tested = tested.map(|it| (&*head.text, it));
-        for (index, part) in parts.iter().enumerate() {
-            let holds = if is_passed {
-                self.holds(tested, (&part.head.text, part.condition))
-            } else {
-                Some(false)
-            };
-            is_passed &= holds != Some(true);
-            match holds {
-                Some(false) if matches!(part.condition, Condition::Never) => {
-                    self.never_run(part.head, &part.block);
-                }
-                Some(false) => self.left_out(&part.block),
-                _ => open.push((index, part)),
+        let ways = self.in_each_case(|scope| scope.open(tested, parts));
+        let mut open: BTreeMap<usize, Vec<Case>> = BTreeMap::new();
+        for way in &ways {
+            for part in &way.value {
+                open.entry(*part).or_default().push(way.case.clone());
             }
         }
-        if let ([(_, only)], false) = (open.as_slice(), is_passed) {
-            return self.block(&only.block);
+        for (index, part) in parts.iter().enumerate() {
+            match part.condition {
+                _ if open.contains_key(&index) => {}
+                Condition::Never => self.never_run(part.head, &part.block),
+                _ => self.left_out(&part.block),
+            }
+        }
+        if open.len() == 1 {
+            let only = open.keys().find_map(|index| parts.get(*index));
+            return only.map_or((), |part| self.block(&part.block));
         }
         let texts = parts.iter().map(|part| part.head.text.as_str());
         let text = core::iter::once(head.text.as_str()).chain(texts).collect::<Vec<_>>().join(" ");
-        let (question, is_new) = self.ask(&text);
+        let are_same = ways.iter().all(|way| way.value == ways[0].value);
+        let (question, is_new) = if are_same { self.ask(&text) } else { (self.question(), true) };
         let entry = self.state.clone();
         let mut ends = Vec::new();
-        for (answer, part) in open {
-            self.state = entry.clone();
+        for (answer, mut cases) in open {
             if !is_new {
-                self.state.assume(&Case::of(question, answer));
+                cases = Vec::from([Case::of(question, answer)]);
             }
-            self.block(&part.block);
+            self.state = entry.clone();
+            self.state.assume(&cases);
+            if let Some(part) = parts.get(answer) {
+                self.block(&part.block);
+            }
             ends.push((answer, self.state.clone()));
-        }
-        if is_passed {
-            ends.push((parts.len(), entry.clone()));
         }
         if !self.join(entry, ends, (question, head.line)) && is_new {
             self.state.asked.forget_number(question);
         }
     }
 
-    /// Whether a condition holds here, by arguments, by what was assigned, and by constants.
-    pub(super) fn holds(
-        &mut self,
-        tested: Option<(&str, &Expression<'_>)>,
-        (text, condition): (&str, &Condition),
-    ) -> Option<bool> {
-        match condition {
-            Condition::Always => Some(true),
-            Condition::Never => Some(false),
-            Condition::Present(name, is_wanted) => {
-                let is_there = self.frame.present.contains(name);
-                (is_there || self.frame.absent.contains(name)).then_some(is_there == *is_wanted)
-            }
-            Condition::Compared(numbers, relation) => {
-                let operands = numbers.each_ref().map(|it| self.certain_number((text, it)));
-                let [left, right] = operands;
-                Some(relation.holds(left?, right?))
-            }
-            Condition::Case(numbers) => {
-                let own = self.certain_number(tested?)?;
-                let numbers = numbers.iter().map(|it| self.certain_number((text, it)));
-                let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
-                Some(numbers.iter().any(|number| number.total_cmp(&own).is_eq()))
-            }
-            Condition::Other => None,
-        }
-    }
-
-    /// The number that an expression is here, unless a declared value counts that may be another
-    /// one when the program starts.
-    fn certain_number(&mut self, (text, expression): (&str, &Expression<'_>)) -> Option<f64> {
-        let mut names = Vec::new();
-        expression.collect_names(&mut names);
-        let is_certain = |name: &Name<'_>| {
-            let lower = lower(name);
-            let datum = self.program.datum(self.frame.module, &lower);
-            self.state.locals.contains_key(&*lower)
-                || datum.is_none_or(|(id, datum)| match datum.storage {
-                    Storage::Const => true,
-                    Storage::Var => self.state.globals.contains_key(&id),
-                    // Another task may assign it.
-                    Storage::Pers => false,
-                })
-        };
-        if names.iter().all(is_certain) { self.number(text, expression) } else { None }
+    /// Whether the condition of a loop holds here, whatever the case.
+    pub(super) fn holds(&mut self, head: &Statement, condition: &Condition) -> Option<bool> {
+        let holds = self.in_all_cases(|scope| scope.holds(None, (&head.text, condition)));
+        holds.map(|(holds, _)| holds)
     }
 
     /// A block that the call that is followed does not execute.
@@ -372,19 +329,23 @@ impl<'m> Walk<'_, 'm> {
                 }
                 self.state.here = Here::Unknown;
             }
-            StatementKind::Assignment(own) => {
-                let ways = self.in_each_case(|it| it.assigned(&skipped.text, own));
-                if ways.iter().any(|way| way.value.is_none()) {
-                    self.note_out_of_reach(skipped, &own.value);
-                }
-                let written = skipped.text.trim_end_matches(';').split_once(":=");
-                let words = written.map(|(to, value)| format!("{} is {}", to.trim(), value.trim()));
-                let words = words.unwrap_or_default();
-                self.put(&own.to.0, Known::of_ways(ways, |content| content, &words));
-            }
+            StatementKind::Assignment(own) => self.assign(skipped, own),
             StatementKind::Instruction(instruction) => self.instruct(skipped, instruction),
             _ => {}
         }
+    }
+
+    fn assign(&mut self, skipped: &'m Statement, own: &Assignment) {
+        let ways = self.in_each_case(|it| it.assigned(&skipped.text, own));
+        if ways.iter().any(|way| way.value.is_none()) {
+            self.note_out_of_reach(skipped, &own.value);
+        }
+        let text = skipped.text.trim_end_matches(';');
+        let words = match text.split_once(":=") {
+            Some((to, value)) => format!("{} is {}", to.trim(), value.trim()),
+            None => format!("{} is counted by {text}", own.name),
+        };
+        self.put(&own.to.0, Known::of_ways(ways, |content| content, &words));
     }
 
     /// Report a calculated target that the robot does not reach.
@@ -401,7 +362,9 @@ impl<'m> Walk<'_, 'm> {
         if releases(self.program, self.frame.module, instruction) {
             self.state.place = Err("the robot may be moved by hand or by a call before it");
         }
-        if let Some((name, _)) = &instruction.written {
+        if let Some(own) = instruction.counted() {
+            self.assign(skipped, &own);
+        } else if let Some((name, _)) = &instruction.written {
             self.put(name, None);
         }
         match instruction.effect {

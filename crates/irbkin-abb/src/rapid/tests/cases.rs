@@ -138,3 +138,30 @@ fn too_many_values_are_not_known() {
 fn codes(body: &str) -> Vec<Code> {
     outcome(body).0.into_iter().map(|(code, _)| code).collect()
 }
+
+#[test]
+fn instructions_that_count_assign() {
+    // A number of a routine without a value is 0.
+    let body = "VAR num n; Incr n; Add n,8; Decr n; MoveL c{n},v100,fine,t;";
+    assert_eq!(codes(body), [Code::NoSuchElement]);
+    let (_, message) = only("VAR num n; Incr n; IF g=1 Add n,2; MoveL c{n},v100,fine,t;");
+    assert!(message.ends_with("(if n is counted by Add n,2; 1 of 2 cases)"), "{message}");
+}
+
+#[test]
+fn a_condition_on_several_values_decides_in_each_case() {
+    let set = "VAR num n; IF g=1 THEN n:=1; x:=a; ELSE n:=2; x:=out; ENDIF ";
+    let go = "MoveJ x,v100,fine,t;";
+    assert_eq!(outcome(&format!("{set} IF n=1 THEN {go} ENDIF")), (Vec::new(), 1, 1));
+    let (code, message) = only(&format!("{set} TEST n CASE 3: x:=b; CASE 2: {go} ENDTEST"));
+    assert_eq!((code, message.contains("case")), (Code::OutOfReach, false), "{message}");
+    // What is assigned there goes on with its case.
+    let back = "IF n=2 THEN x:=a; ENDIF";
+    assert_eq!(outcome(&format!("{set} {back} {go}")).0, []);
+}
+
+#[test]
+fn a_short_loop_without_its_counter_in_a_move_is_followed() {
+    let row = "VAR num y; FOR i FROM 1 TO 30 DO MoveJ Offs(a,y,0,0),v100,fine,t; y:=y+100; ENDFOR";
+    assert!(only(row).1.ends_with("(first at i = 8; 23 of 30 passes)"));
+}
