@@ -60,7 +60,6 @@ pub use self::calc::wrong::error_name;
 pub use self::check::carried::Carried;
 pub use self::check::checker::{CheckOptions, Checked, CheckedMove, check};
 pub use self::check::undeclared::candidates;
-pub use self::check::unused::unused;
 pub use self::data::finding::{Code, Edit, Finding, Severity};
 pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};
 pub use self::data::moves::{Argument, ExtraArgument, Move, MoveKind, MoveOption, Target};

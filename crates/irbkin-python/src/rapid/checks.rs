@@ -188,6 +188,7 @@ fn checked<const N: usize>(
     let max_velocity = read_limits(max_velocity, "max_velocity")?;
     let turn = turn.unwrap_or(MotionOptions::<N>::default().turn);
     let options = CheckOptions {
+        codes,
         motion: MotionOptions { max_velocity, step, turn, ..MotionOptions::default() },
         cell: given.cell,
         units: given.units,
@@ -200,15 +201,10 @@ fn checked<const N: usize>(
     };
     let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();
     let texts: Vec<_> = own.iter().map(|it| (&it.module, it.source.as_str())).collect();
-    let rapid::Checked { mut findings, moves } = detached_until(py, |interrupt| {
+    let rapid::Checked { findings, moves } = detached_until(py, |interrupt| {
         rapid::check(arm, &texts, &CheckOptions { interrupt, ..options })
     })?
     .map_err(exception)?;
-    if codes.is_some_and(|codes| codes.contains(&Code::Unused)) {
-        findings.extend(rapid::unused(&texts));
-        findings.sort_by_key(|it| (it.module, it.line, it.column));
-    }
-    findings.retain(|it| codes.is_none_or(|codes| codes.contains(&it.code)));
     let modules: Vec<&Module> = own.iter().map(|it| &it.module).collect();
     let mut left = MOST_COMPARED;
     let findings = findings.into_iter().map(|it| record(py, it, &modules, &mut left));

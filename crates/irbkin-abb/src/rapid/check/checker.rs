@@ -9,8 +9,9 @@ use super::carried::{Carried, carried_by, carriers};
 use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
 use super::corners::Zones;
 use super::findings::{Case, sorted};
-use super::fixes::{Demand, Finder};
+use super::fixes::{Demand, Finder, correct};
 use super::undeclared::undeclared;
+use super::unused::unused;
 use crate::Error;
 use crate::rapid::calc::target::{converter, with_flange};
 use crate::rapid::calc::units::Units;
@@ -18,7 +19,7 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::records::GivenTools;
-use crate::rapid::motion::drive::MotionOptions;
+use crate::rapid::motion::drive::{Drive, MotionOptions};
 use crate::rapid::motion::goal::{Conf, Goal, Place};
 use crate::rapid::motion::joints::nearest_written;
 use crate::rapid::motion::routine::{Followed, check as check_options, velocities};
@@ -33,6 +34,8 @@ use irbkin_motion::{Arm, cell};
 /// Options of [`check`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CheckOptions<'a, const N: usize = 6> {
+    /// The codes of the findings that are wanted; all but U807 without them.
+    pub codes: Option<&'a [Code]>,
     /// How moves are followed. The start and the accelerations do not count.
     pub motion: MotionOptions<N>,
     /// The cell in which each move is proven to touch nothing, each joint moving evenly between two
@@ -135,12 +138,11 @@ pub fn check<const N: usize>(
     }
     let mut checker = Checker {
         robots: [arm, &flange],
-        options: options.motion,
+        options,
         units,
         max_velocity,
         carrying,
         carried,
-        interrupt: options.interrupt,
         finder: Finder { program: &program, sources: &sources },
         ends: Vec::new(),
         found: Vec::new(),
@@ -154,7 +156,11 @@ pub fn check<const N: usize>(
     checker.found.extend(notes);
     let CheckOptions { is_whole, of_system, interrupt, .. } = *options;
     checker.found.extend(undeclared(&modules, &sources, is_whole, of_system, interrupt)?);
-    let Checker { found, demands, mut moves, cases, .. } = checker;
+    if options.codes.is_some_and(|codes| codes.contains(&Code::Unused)) {
+        checker.found.extend(unused(&modules, &sources));
+    }
+    let Checker { mut found, finder, demands, mut moves, cases, .. } = checker;
+    correct(&demands, &finder, &mut found);
     // A move is not checked if it is not in one of its passes.
     let place = |it: &CheckedMove<N>| (it.module, it.line, it.column);
     moves.sort_by_key(|(by, it)| {
@@ -162,7 +168,9 @@ pub fn check<const N: usize>(
     });
     moves.dedup_by_key(|(by, it)| (place(it), *by));
     let moves = moves.into_iter().map(|(_, it)| it).collect();
-    Ok(Checked { findings: sorted(found, &demands, &cases, &modules), moves })
+    let mut findings = sorted(found, &cases, &modules);
+    findings.retain(|it| options.codes.is_none_or(|codes| codes.contains(&it.code)));
+    Ok(Checked { findings, moves })
 }
 
 /// A move that is not followed, as one that is not checked.
@@ -211,31 +219,41 @@ type End<const N: usize> = (Option<[f64; N]>, Option<String>);
 struct Checker<'a, 'm, const N: usize> {
     /// The robot, and the same with the flange as its tool.
     robots: [&'a Robot<N>; 2],
-    options: MotionOptions<N>,
+    options: &'a CheckOptions<'a, N>,
     units: &'a Units,
     max_velocity: [f64; N],
     /// The arm with what it carries in the cell, by the names of that; none without a cell.
     carrying: Vec<(&'a Vec<String>, cell::Checker<'a, N>)>,
     carried: &'a Carried,
-    interrupt: Interrupt<'a>,
     finder: Finder<'a, 'm>,
     /// The ends of the moves of each run.
     ends: Vec<Vec<End<N>>>,
     found: Vec<Finding>,
-    demands: Vec<Demand>,
+    demands: Vec<Demand<'a>>,
     /// The moves with the chain of calls, the module and the index of the instruction.
     moves: Vec<([usize; 3], CheckedMove<N>)>,
     cases: BTreeSet<Case>,
 }
 
-impl<const N: usize> Checker<'_, '_, N> {
-    fn add(&mut self, run: &Run<'_>) -> Result<(), Error> {
+impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
+    fn add(&mut self, run: &'a Run<'m>) -> Result<(), Error> {
         let end = run.from.and_then(|(run, moves)| self.ends.get(run)?.get(moves.checked_sub(1)?));
         let (start, assumed) = end.cloned().unwrap_or_default();
-        let options = MotionOptions { start, max_acceleration: None, ..self.options };
-        let mut followed =
-            Followed::new(self.robots, &run.steps, &options, Some(self.units), self.interrupt)?;
-        followed.check_speeds(&self.max_velocity);
+        let options = MotionOptions { start, max_acceleration: None, ..self.options.motion };
+        let (robots, units, interrupt) = (self.robots, Some(self.units), self.options.interrupt);
+        let mut collisions = Vec::new();
+        let finish = |drive: &mut Drive<'_, '_, N>, index: usize| {
+            drive.check_speed(index, &self.max_velocity);
+            if drive.made[index].as_programmed {
+                interrupt.check(0)?;
+                let step = drive.goals[index].step;
+                let finding = self.collision(step, drive.samples.along(index));
+                collisions.extend(finding.map(|it| it.at(step, index)));
+            }
+            drive.samples.forget_before(index + 1);
+            Ok(())
+        };
+        let followed = Followed::new(robots, &run.steps, &options, units, interrupt, finish)?;
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
         for finding in unfollowed {
             self.moves.push(([0, finding.module, usize::MAX], unfollowed_move(finding)));
@@ -264,18 +282,11 @@ impl<const N: usize> Checker<'_, '_, N> {
             let finding = resting(self.worded(finding, goal, is_wrong), goals, assumed.as_ref());
             self.found.push(finding);
         }
-        for (index, goal) in
-            goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
-        {
-            self.interrupt.check(0)?;
-            let finding = self.collision(goal.step, followed.along(index));
-            let placed =
-                finding.map(|it| resting(it.at(goal.step, index), goals, assumed.as_ref()));
-            self.found.extend(placed);
-        }
+        let collisions = collisions.into_iter();
+        self.found.extend(collisions.map(|it| resting(it, goals, assumed.as_ref())));
         let zones = Zones { flange: self.robots[1], goals, made };
         for (index, goal) in goals.iter().enumerate() {
-            self.interrupt.check(index)?;
+            interrupt.check(index)?;
             let (module, line, column) = (goal.stepped.module, goal.step.line, goal.step.column);
             let (home, instruction) = goal.stepped.instruction;
             let own = CheckedMove {
@@ -310,14 +321,15 @@ impl<const N: usize> Checker<'_, '_, N> {
             if !goal.is_cartesian() {
                 in_wrist_singularity(self.robots[1], &q).into_iter().for_each(&mut found);
             }
-            on_edges(self.robots[1], &q)?.for_each(found);
+            if self.options.codes.is_none_or(|codes| codes.contains(&Code::ConfdataEdge)) {
+                on_edges(self.robots[1], &q)?.for_each(found);
+            }
             let to = self.robots[1].configuration(&q)?;
             if wrong[index].is_some() && !self.is_nearest_written(goal, to) {
                 continue;
             }
-            let written = self.finder.of(goal.stepped.module, goal.step);
             let (from, finding) = (wanted.configuration, wrong[index]);
-            self.demands.push(Demand { written, from, to, finding });
+            self.demands.push(Demand { module, step: goal.step, from, to, finding });
         }
         let ends =
             made.iter().zip(goals).map(|(made, goal)| (made.q, goal.stepped.assumed.clone()));

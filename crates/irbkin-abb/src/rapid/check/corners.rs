@@ -120,13 +120,13 @@ impl<const N: usize> Zones<'_, '_, N> {
     /// A circle that its points hardly determine, or one that is too long.
     fn circle(&self, index: usize) -> Option<Finding> {
         let goal = &self.goals[index];
-        let via = goal.via?;
+        let via = goal.via.as_deref()?;
         if index == 0 || goal.from_unknown || goal.is_carried {
             return None;
         }
         let (start, end) = (self.tool(index - 1, goal)?, self.tool(index, goal)?);
         let [to_via, to_end] =
-            [via, end].map(|pose| pose.translation.vector - start.translation.vector);
+            [via, &end].map(|pose| pose.translation.vector - start.translation.vector);
         let least = to_via.norm().min(to_end.norm());
         let angle = angle_between(&to_via, &to_end);
         let found = |words| Some(Finding::new(Code::UncertainCircle, words));

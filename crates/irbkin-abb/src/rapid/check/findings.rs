@@ -5,7 +5,6 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::fixes::{Demand, correct};
 use crate::rapid::data::finding::{Code, Finding, Place};
 use crate::rapid::data::module::Module;
 
@@ -13,14 +12,12 @@ use crate::rapid::data::module::Module;
 /// leads to it with arguments, and what is particular in words.
 pub(super) type Case = (Place, (usize, usize), Option<Place>, String);
 
-/// Findings in the order of the text, each once, with their corrections.
+/// Findings in the order of the text, each once.
 pub(super) fn sorted(
     mut found: Vec<Finding>,
-    demands: &[Demand],
     cases: &BTreeSet<Case>,
     modules: &[&Module],
 ) -> Vec<Finding> {
-    correct(demands, &mut found);
     // Of those that say the same, one that rests on nothing stays.
     found.sort_by_key(|it| (identity(it), it.assumed.is_some()));
     let mut found = of_all_cases(&found, cases);

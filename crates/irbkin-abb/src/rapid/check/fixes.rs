@@ -18,9 +18,9 @@ use crate::rapid::text::tokens::Tokens;
 use irbkin::Configuration;
 
 /// The confdata that a move needs at its target.
-pub(super) struct Demand {
-    /// Where it is written; `None` if it is calculated.
-    pub(super) written: Option<Written>,
+pub(super) struct Demand<'a> {
+    pub(super) module: usize,
+    pub(super) step: &'a Move,
     pub(super) from: Configuration,
     pub(super) to: Configuration,
     /// The finding that it corrects; `None` if the confdata is right as it is.
@@ -29,11 +29,14 @@ pub(super) struct Demand {
 
 /// Give findings their corrections: none where another move needs the confdata as it is, or
 /// needs another one.
-pub(super) fn correct(demands: &[Demand], found: &mut [Finding]) {
-    let mut corrections: BTreeMap<_, Vec<(usize, &Demand, &Written)>> = BTreeMap::new();
+pub(super) fn correct(demands: &[Demand<'_>], finder: &Finder<'_, '_>, found: &mut [Finding]) {
+    if demands.iter().all(|demand| demand.finding.is_none()) {
+        return;
+    }
+    let mut corrections: BTreeMap<_, Vec<(usize, &Demand<'_>, Written)>> = BTreeMap::new();
     let mut right = BTreeSet::new();
     for demand in demands {
-        let Some(written) = &demand.written else { continue };
+        let Some(written) = finder.of(demand.module, demand.step) else { continue };
         let begin = written.begin();
         if let Some(finding) = demand.finding {
             corrections.entry(begin).or_default().push((finding, demand, written));
@@ -42,7 +45,7 @@ pub(super) fn correct(demands: &[Demand], found: &mut [Finding]) {
         }
     }
     for (begin, all) in corrections {
-        let (_, Demand { from, to, .. }, written) = all[0];
+        let (_, Demand { from, to, .. }, written) = &all[0];
         if right.contains(&begin) || all.iter().any(|(_, other, _)| other.to != *to) {
             continue;
         }

@@ -17,18 +17,17 @@ const TYPES: [DataType; 4] =
 
 /// The targets, tools, work objects and routines of a program that nothing in its texts names but
 /// their declaration. A name in a string counts: `%"rPart"+num%` calls a routine.
-#[must_use]
-pub fn unused(modules: &[(&Module, &str)]) -> Vec<Finding> {
+pub(super) fn unused(modules: &[&Module], sources: &[&str]) -> Vec<Finding> {
     // How often each name is declared, less how often it is written.
     let mut left: BTreeMap<String, isize> = BTreeMap::new();
-    for (module, _) in modules {
+    for module in modules {
         let data = module.data().iter().map(|datum| &datum.name);
         for name in data.chain(module.routines().iter().map(|routine| &routine.name)) {
             *left.entry(name.to_lowercase()).or_default() += 1;
         }
     }
     let mut word = String::new();
-    for (_, text) in modules {
+    for text in sources {
         for line in text.lines() {
             for part in words(line) {
                 word.clear();
@@ -41,7 +40,7 @@ pub fn unused(modules: &[(&Module, &str)]) -> Vec<Finding> {
     }
     let is_unused = |name: &str| left.get(&name.to_lowercase()).is_some_and(|count| *count >= 0);
     let mut found = Vec::new();
-    for (index, (module, _)) in modules.iter().enumerate() {
+    for (index, module) in modules.iter().enumerate() {
         let mut add = |place: (usize, usize), routine: Option<String>, what: String| {
             let finding = Finding::new(Code::Unused, "nothing in the program names it");
             found.push(finding.placed(place, routine, 0, &what).in_module(index));

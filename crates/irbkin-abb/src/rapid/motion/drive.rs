@@ -75,15 +75,15 @@ pub(super) struct Here<const N: usize> {
     flange: Pose,
 }
 
-pub(super) struct Drive<'a, 'm, const N: usize> {
+pub(in crate::rapid) struct Drive<'a, 'm, const N: usize> {
     pub(super) robot: &'a Robot<N>,
     /// The robot with the flange as its tool.
     pub(super) flange: &'a Robot<N>,
-    pub(super) goals: &'a [Goal<'m, N>],
+    pub(in crate::rapid) goals: &'a [Goal<'m, N>],
     spacing: Spacing,
     pub(super) findings: &'a mut Vec<Finding>,
-    pub(super) samples: Samples<N>,
-    pub(super) made: Vec<Made<N>>,
+    pub(in crate::rapid) samples: Samples<N>,
+    pub(in crate::rapid) made: Vec<Made<N>>,
     here: Option<Here<N>>,
     entry: Option<Entry>,
     /// Whether the last target was not reached.
@@ -95,13 +95,14 @@ pub(super) struct Drive<'a, 'm, const N: usize> {
 }
 
 impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
-    /// Go through the moves.
+    /// Go through the moves; `finish` gets each when its samples are final.
     pub(super) fn through(
         [robot, flange]: [&'a Robot<N>; 2],
         goals: &'a [Goal<'m, N>],
         options: &MotionOptions<N>,
         findings: &'a mut Vec<Finding>,
         interrupt: Interrupt<'a>,
+        mut finish: impl FnMut(&mut Self, usize) -> Result<(), Error>,
     ) -> Result<(Samples<N>, Vec<Made<N>>), Error> {
         let mut drive = Self {
             robot,
@@ -127,12 +128,19 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
             let made = drive.make(index)?;
             drive.made.push(made);
             drive.samples.ends.push(drive.samples.q.len());
-            let found = drive.samples.q.len();
+            let found = drive.samples.forgotten + drive.samples.q.len();
             if found > MOST_SAMPLES {
                 #[expect(clippy::cast_precision_loss, reason = "some 1e7")]
                 let [found, most] = [found, MOST_SAMPLES].map(|count| count as f64);
                 return Err(irbkin_motion::internal::MotionFault::TooMany { found, most }.into());
             }
+            // The corner between two moves belongs to both.
+            if let Some(before) = index.checked_sub(1) {
+                finish(&mut drive, before)?;
+            }
+        }
+        if let Some(last) = goals.len().checked_sub(1) {
+            finish(&mut drive, last)?;
         }
         Ok((drive.samples, drive.made))
     }

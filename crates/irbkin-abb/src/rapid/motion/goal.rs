@@ -1,7 +1,9 @@
 //! A move with everything in meters, radians and seconds, and what is wrong with it as it is
 //! written.
 
+use alloc::boxed::Box;
 use alloc::format;
+use alloc::rc::Rc;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
@@ -45,9 +47,9 @@ pub(in crate::rapid) struct Goal<'m, const N: usize> {
     pub(in crate::rapid) stepped: &'m Stepped<'m>,
     /// Where it is known, with its tool and its work object.
     pub(in crate::rapid) place: Option<Place<N>>,
-    pub(in crate::rapid) frames: Frames,
+    pub(in crate::rapid) frames: Rc<Frames>,
     /// The point on the circle.
-    pub(in crate::rapid) via: Option<Pose>,
+    pub(in crate::rapid) via: Option<Box<Pose>>,
     /// The corner at its end; none if the target is met.
     pub(in crate::rapid) zone: Option<Zone>,
     /// Whether the robot stops at its end.
@@ -139,13 +141,13 @@ impl<'m, const N: usize> Goal<'m, N> {
         // The speed of the tool of joint angles counts at the flange if the tool is unknown.
         let flange =
             Frames::Carried { t_flange_tool: Pose::identity(), t_world_wobj: Pose::identity() };
-        let frames = frames.unwrap_or(flange);
+        let frames = Rc::new(frames.unwrap_or(flange));
         Self {
             step,
             stepped,
             place,
             frames,
-            via,
+            via: via.map(Box::new),
             zone,
             stops,
             speed,

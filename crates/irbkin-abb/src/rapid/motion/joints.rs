@@ -31,6 +31,8 @@ pub(in crate::rapid) struct Samples<const N: usize> {
     pub(in crate::rapid) ends: Vec<usize>,
     /// How many there are before the first move: 1 if a start is given.
     pub(in crate::rapid) first: usize,
+    /// How many are forgotten.
+    pub(super) forgotten: usize,
 }
 
 impl<const N: usize> Samples<N> {
@@ -39,10 +41,26 @@ impl<const N: usize> Samples<N> {
         self.ways.push(way);
     }
 
+    /// Forget the samples of the moves before one, but for the last.
+    pub(in crate::rapid) fn forget_before(&mut self, index: usize) {
+        let Some(before) = index.checked_sub(1) else { return };
+        let count = self.ends[before].saturating_sub(1);
+        self.q.drain(..count);
+        self.ways.drain(..count);
+        self.ends[before..].iter_mut().for_each(|end| *end -= count);
+        self.forgotten += count;
+    }
+
     /// The samples of a move.
     pub(in crate::rapid) fn own(&self, index: usize) -> Range<usize> {
         let begin = index.checked_sub(1).map_or(self.first, |before| self.ends[before]);
         begin..self.ends[index]
+    }
+
+    /// The joints along a move, from where it begins.
+    pub(in crate::rapid) fn along(&self, index: usize) -> &[[f64; N]] {
+        let intervals = self.intervals(index);
+        &self.q[intervals.start.saturating_sub(1)..intervals.end]
     }
 
     /// The intervals of a move, by the samples that they end at.

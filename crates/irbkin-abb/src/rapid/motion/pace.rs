@@ -7,7 +7,7 @@ use alloc::{format, vec};
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::drive::Made;
+use super::drive::{Drive, Made};
 use super::goal::Goal;
 use super::joints::Samples;
 use crate::Error;
@@ -37,13 +37,25 @@ struct TooFast {
     allowed: Option<f64>,
 }
 
+impl<const N: usize> Drive<'_, '_, N> {
+    /// Find a joint that is too fast at the programmed speed of a move.
+    pub(in crate::rapid) fn check_speed(&mut self, index: usize, max_velocity: &[f64; N]) {
+        let Self { goals, samples, made, findings, .. } = self;
+        let mut least = vec![0.0; samples.q.len()];
+        Pace { samples, goals, made, max_velocity, findings }.add_times(index, &mut least);
+    }
+}
+
 impl<const N: usize> Pace<'_, '_, N> {
     /// The trajectory, and the time of each sample [s].
     pub(super) fn timed(
         mut self,
         max_acceleration: Option<&[f64; N]>,
     ) -> Result<(Trajectory, Vec<f64>), Error> {
-        let least = self.least_times();
+        let mut least = vec![0.0; self.samples.q.len().saturating_sub(1)];
+        for index in 0..self.goals.len() {
+            self.add_times(index, &mut least);
+        }
         let timed = if let Some(max_acceleration) = max_acceleration {
             self.between_rests(&least, max_acceleration)?
         } else {
@@ -63,15 +75,6 @@ impl<const N: usize> Pace<'_, '_, N> {
         Ok(timed)
     }
 
-    /// The times of the intervals between samples [s]; joints that are too fast are found.
-    pub(super) fn least_times(&mut self) -> Vec<f64> {
-        let mut least = vec![0.0; self.samples.q.len().saturating_sub(1)];
-        for index in 0..self.goals.len() {
-            self.add_times(index, &mut least);
-        }
-        least
-    }
-
     /// The joint (from 1) that takes longest at its limit from the sample before one, and how long
     /// [s].
     fn slowest(&self, sample: usize) -> (usize, f64) {
@@ -86,7 +89,8 @@ impl<const N: usize> Pace<'_, '_, N> {
         (slowest + 1, longest)
     }
 
-    /// The times of the intervals of a move [s], the first one at index 0 for sample 1.
+    /// The times of the intervals of a move [s], the first one at index 0 for sample 1; a joint that
+    /// is too fast is found.
     fn add_times(&mut self, index: usize, least: &mut [f64]) {
         let (intervals, goal) = (self.samples.intervals(index), &self.goals[index]);
         let mut sums = [0.0; 2];

@@ -103,7 +103,8 @@ pub fn motion<const N: usize>(
     let convert = converter(&flange, const { &Units(Vec::new()) });
     let program = Program::new(modules, &convert);
     let (routine, steps) = sequence(&program, routine)?;
-    let followed = Followed::new([robot, &flange], &steps, options, None, Interrupt::none())?;
+    let none = Interrupt::none();
+    let followed = Followed::new([robot, &flange], &steps, options, None, none, |_, _| Ok(()))?;
     let Followed { goals, samples, made, mut findings, unfollowed } = followed;
     findings.extend(unfollowed);
     if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
@@ -143,30 +144,20 @@ pub(in crate::rapid) struct Followed<'m, const N: usize> {
 
 impl<'m, const N: usize> Followed<'m, N> {
     /// The second robot is the first one with the flange as its tool. Without units, external axes
-    /// do not matter.
+    /// do not matter. `finish` gets each move when its samples are final.
     pub(in crate::rapid) fn new(
         robots: [&Robot<N>; 2],
         steps: &'m [Step<'m>],
         options: &MotionOptions<N>,
         units: Option<&Units>,
         interrupt: Interrupt<'_>,
+        finish: impl FnMut(&mut Drive<'_, 'm, N>, usize) -> Result<(), Error>,
     ) -> Result<Self, Error> {
         let (mut findings, mut unfollowed) = (Vec::new(), Vec::new());
         let goals = goals(robots[0], steps, units, [&mut findings, &mut unfollowed]);
-        let (samples, made) = Drive::through(robots, &goals, options, &mut findings, interrupt)?;
+        let (samples, made) =
+            Drive::through(robots, &goals, options, &mut findings, interrupt, finish)?;
         Ok(Self { goals, samples, made, findings, unfollowed })
-    }
-
-    /// The joints along a move, from where it begins.
-    pub(in crate::rapid) fn along(&self, index: usize) -> &[[f64; N]] {
-        let intervals = self.samples.intervals(index);
-        &self.samples.q[intervals.start.saturating_sub(1)..intervals.end]
-    }
-
-    /// Find the joints that are too fast at the programmed speeds.
-    pub(in crate::rapid) fn check_speeds(&mut self, max_velocity: &[f64; N]) {
-        let Self { goals, samples, made, findings, .. } = self;
-        Pace { samples, goals, made, max_velocity, findings }.least_times();
     }
 }
 
@@ -227,6 +218,9 @@ fn goals<'m, const N: usize>(
             Step::Move(stepped) => {
                 let mut goal = Goal::new(robot, stepped, units, move_index, findings);
                 goal.from_unknown = core::mem::take(&mut from_unknown);
+                if let Some(before) = goals.last().filter(|it| it.frames == goal.frames) {
+                    goal.frames = before.frames.clone();
+                }
                 if let (Some(units), Some(before)) = (units, goals.last()) {
                     let [from, to] = [before.step, goal.step].map(external_axes::<N>);
                     let between = units.between(&from, &to);

@@ -121,9 +121,8 @@ pub(super) struct Walk<'p, 'm> {
     /// Chains of calls: the number of each by that of the chain before its last call, with the
     /// module and the first byte of that call.
     pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
-    /// The places behind moves, after so many steps of a run, by the place before them, the module
-    /// and the index of the instruction, and the chain of calls.
-    made: BTreeMap<Made, Vec<(usize, usize)>>,
+    /// The runs that begin with a move, by what it is made by.
+    begun: BTreeMap<Made, Vec<usize>>,
     /// The passes of loops that are followed, each in words.
     pub(super) passes: Vec<String>,
     /// The number of the next open question.
@@ -160,7 +159,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             frame: Frame::default(),
             followed: BTreeSet::new(),
             chains: BTreeMap::new(),
-            made: BTreeMap::new(),
+            begun: BTreeMap::new(),
             passes: Vec::new(),
             questions: Cell::new(0),
             above: Vec::new(),
@@ -318,12 +317,19 @@ impl<'p, 'm> Walk<'p, 'm> {
         from: Option<(usize, usize)>,
         stepped: &Stepped<'m>,
     ) -> Option<(usize, usize)> {
-        let is_same = |(run, count): &&(usize, usize)| match &self.runs[*run].steps[count - 1] {
-            Step::Move(own) => *own.step == *stepped.step && own.assumed == stepped.assumed,
-            Step::NotFollowed { .. } => false,
+        let is_same = |(run, count): &(usize, usize)| match self.runs[*run].steps.get(count - 1) {
+            Some(Step::Move(own)) => {
+                (own.instruction, own.chain) == (stepped.instruction, stepped.chain)
+                    && *own.step == *stepped.step
+                    && own.assumed == stepped.assumed
+            }
+            _ => false,
         };
-        let all = self.made.get(&(from, stepped.instruction, stepped.chain))?;
-        all.iter().find(is_same).copied().filter(|_| !self.is_one)
+        let next = from.map(|(run, count)| (run, count + 1));
+        let by = (from, stepped.instruction, stepped.chain);
+        let begun = self.begun.get(&by).into_iter().flatten();
+        let mut all = next.into_iter().chain(begun.map(|run| (*run, 1)));
+        all.find(is_same).filter(|_| !self.is_one)
     }
 
     pub(super) fn push_move(&mut self, stepped: Stepped<'m>) {
@@ -336,12 +342,8 @@ impl<'p, 'm> Walk<'p, 'm> {
             self.state.here = Here::After(run, count);
             return;
         }
-        let by = (from, stepped.instruction, stepped.chain);
         self.spend_move(&stepped.step);
         self.push(Step::Move(Box::new(stepped)));
-        if let Here::After(run, count) = self.state.here {
-            self.made.entry(by).or_default().push((run, count));
-        }
     }
 
     pub(super) fn push(&mut self, step: Step<'m>) {
@@ -358,11 +360,21 @@ impl<'p, 'm> Walk<'p, 'm> {
             return;
         }
         let from = match self.state.here {
-            Here::After(run, count) => Some((run, self.moves(run, count))),
+            Here::After(run, count) => Some((run, count)),
             Here::Unknown | Here::OneOf(_) | Here::Left => None,
         };
-        self.state.here = Here::After(self.runs.len(), 1);
+        self.state.here = Here::After(self.begin(from, step), 1);
+    }
+
+    /// Begin a run with a step, behind so many steps of another; its number.
+    fn begin(&mut self, from: Option<(usize, usize)>, step: Step<'m>) -> usize {
+        let number = self.runs.len();
+        if let Step::Move(own) = &step {
+            self.begun.entry((from, own.instruction, own.chain)).or_default().push(number);
+        }
+        let from = from.map(|(run, count)| (run, self.moves(run, count)));
         self.runs.push(Run { from, steps: Vec::from([step]) });
+        number
     }
 
     /// A move in several cases, each from where the robot is in it.
@@ -381,13 +393,8 @@ impl<'p, 'm> Walk<'p, 'm> {
                 ends.push((case, run, count));
                 continue;
             }
-            let by = (from, step.instruction, step.chain);
             self.spend_move(&step.step);
-            let from = from.map(|(run, count)| (run, self.moves(run, count)));
-            let run = self.runs.len();
-            self.runs.push(Run { from, steps: Vec::from([Step::Move(Box::new(step))]) });
-            self.made.entry(by).or_default().push((run, 1));
-            ends.push((case, run, 1));
+            ends.push((case, self.begin(from, Step::Move(Box::new(step))), 1));
         }
         self.state.here = Here::OneOf(Rc::new(ends));
     }

@@ -330,3 +330,26 @@ fn calls_that_double_at_each_level_are_bounded_and_each_finding_is_there_once() 
     assert!((1..=50).contains(&of(Code::NotFollowed)), "{}", of(Code::NotFollowed));
     assert_eq!(moves.iter().filter(|it| it.unchecked.is_none()).count(), 25);
 }
+
+#[test]
+fn wanted_codes_are_those_of_all_findings() {
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
+    let text = text(
+        "MoveJ a,v1000,z100,t; MoveL c{1},v100,z100,t; MoveL out,v100,fine,t; MoveL c{2},v5,z5,t;",
+    );
+    let module = parse(&text, &[]).unwrap();
+    let found = |codes: Option<&[Code]>| {
+        let options = CheckOptions { codes, ..CheckOptions::default() };
+        check(&robot, &[(&module, &text)], &options).unwrap().findings
+    };
+    let all = found(None);
+    let mut kinds: Vec<Code> = all.iter().map(|it| it.code).collect();
+    kinds.dedup();
+    assert!(kinds.contains(&Code::OutOfReach) && kinds.contains(&Code::ZoneTooLarge), "{kinds:?}");
+    assert!(kinds.contains(&Code::ConfdataEdge), "{kinds:?}");
+    for code in Code::ALL.into_iter().filter(|code| *code != Code::Unused) {
+        let own: Vec<Finding> = all.iter().filter(|it| it.code == code).cloned().collect();
+        assert_eq!(found(Some(&[code])), own, "{code:?}");
+    }
+    assert_ne!(found(Some(&[Code::Unused])), []);
+}
