@@ -129,6 +129,7 @@ impl CheckedMove {
     pub(super) fn of<const N: usize>(py: Python<'_>, step: rapid::CheckedMove<N>) -> Self {
         let rapid::CheckedMove { module, line, column, routine, target, assumed, .. } = step;
         let rapid::CheckedMove { q, confdata, unchecked, .. } = step;
+        let (routine, target) = (routine.as_deref().map(Into::into), target.to_string());
         let q = q.map(|q| column_of(py, q));
         let unchecked = unchecked.map(|code| code.id().into());
         let confdata = confdata.map(Configuration::from);

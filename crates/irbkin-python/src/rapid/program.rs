@@ -287,6 +287,8 @@ impl Move {
             }
             Err(reason) => argument(py, text, Err::<f64, _>(reason)),
         };
+        let rapid::Argument { text: speed, value: speed_data } = &*step.speed;
+        let rapid::Argument { text: zone, value: zone_data } = &*step.zone;
         let via = step
             .via
             .as_ref()
@@ -297,18 +299,18 @@ impl Move {
         let time = step.time.as_ref().map(|time| {
             let is_time = |option: &&rapid::MoveOption| option.name.eq_ignore_ascii_case("T");
             let text = step.options.iter().find(is_time).and_then(|option| option.text.as_deref());
-            argument(py, text.unwrap_or_default(), time.as_ref().copied())
+            argument(py, text.unwrap_or_default(), time.as_ref().as_ref().copied())
         });
         let options = step.options.iter().map(|option| (&option.name, &option.text));
         let rapid::MotionSettings { conf_l, conf_j, sing_area, cir_path_mode } = step.settings;
         let (sing_area, cir_path_mode) = (sing_area.name().into(), cir_path_mode.name().into());
         Ok(Self {
             kind: step.kind.name().into(),
-            routine: step.routine.clone(),
+            routine: step.routine.as_deref().map(Into::into),
             target: target?,
             via: via.transpose()?,
-            speed: step.speed.clone(),
-            zone: step.zone.clone(),
+            speed: speed.to_string(),
+            zone: zone.to_string(),
             tool: argument(
                 py,
                 &step.tool.text,
@@ -319,19 +321,11 @@ impl Move {
             line: step.line,
             column: step.column,
             displaced: step.displaced,
-            speed_data: argument(
-                py,
-                &step.speed,
-                step.speed_data.as_ref().map(|it| class::SpeedData(*it)),
-            )?,
-            zone_data: argument(
-                py,
-                &step.zone,
-                step.zone_data.as_ref().map(|it| class::ZoneData(*it)),
-            )?,
+            speed_data: argument(py, speed, speed_data.as_ref().map(|it| class::SpeedData(*it)))?,
+            zone_data: argument(py, zone, zone_data.as_ref().map(|it| class::ZoneData(*it)))?,
             time: time.transpose()?,
             settings: Py::new(py, MotionSettings { conf_l, conf_j, sing_area, cir_path_mode })?,
-            instruction: step.instruction.clone(),
+            instruction: step.instruction.to_string(),
             extra: PyTuple::new(py, step.extra.iter().map(|it| (it.place, &it.text)))?.unbind(),
         })
     }

@@ -205,9 +205,10 @@ impl<'a, const N: usize> Table<'a, N> {
         argument: &Argument<T>,
         read: impl Fn(&T) -> Result<RobTarget, JointTarget>,
     ) {
-        let (kind, text) = (step.kind.name(), argument.text.clone());
+        let (kind, text) = (step.kind.name(), argument.text.to_string());
         let place = (step.line, step.column);
-        let row = Row { kind, text, place, routine: step.routine.clone() };
+        let routine = step.routine.as_deref().map(Into::into);
+        let row = Row { kind, text, place, routine };
         let target = match step.displaced {
             Some(line) => Err(displaced(line).into()),
             None => target_of(argument).map(read),

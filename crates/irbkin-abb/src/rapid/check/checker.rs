@@ -3,6 +3,7 @@
 use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::carried::{Carried, carried_by, carriers};
@@ -72,9 +73,9 @@ pub struct CheckedMove<const N: usize = 6> {
     /// Column, from 1, in characters.
     pub column: usize,
     /// The routine that contains it.
-    pub routine: Option<String>,
+    pub routine: Option<Arc<str>>,
     /// The target as it is written.
-    pub target: String,
+    pub target: Arc<str>,
     /// The joints at its target [rad]; `None` if it has none, or is not checked.
     pub q: Option<[f64; N]>,
     /// The confdata of its target; `None` for joint angles, or if the target is not known.
@@ -179,8 +180,8 @@ fn unfollowed_move<const N: usize>(finding: &Finding) -> CheckedMove<N> {
         module: finding.module,
         line: finding.line,
         column: finding.column,
-        routine: finding.routine.clone(),
-        target: finding.subject.clone(),
+        routine: finding.routine.as_deref().map(Into::into),
+        target: finding.subject.as_str().into(),
         unchecked: Some(finding.code),
         ..CheckedMove::default()
     }

@@ -64,7 +64,7 @@ impl<const N: usize> Zones<'_, '_, N> {
         let words = format!(
             "zone {} ({:.1} mm) is followed by {halt}: a controller stops at the target (event \
              50024, corner path failure); program fine",
-            goal.step.zone,
+            goal.step.zone.text,
             zone.position * 1e3,
         );
         let routine = goal.step.routine.as_deref().unwrap_or_default();
@@ -174,7 +174,7 @@ impl<const N: usize> Zones<'_, '_, N> {
         let words = format!(
             "zone {} ({zone_mm} mm) is over half of the {way_mm} mm to {side}: the controller \
              reduces it to {bound_mm} mm",
-            goal.step.zone,
+            goal.step.zone.text,
         );
         let finding = Finding::new(Code::ZoneTooLarge, words);
         Some(finding.with_value(zone.position, bound))

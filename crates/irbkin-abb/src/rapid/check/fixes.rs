@@ -106,7 +106,7 @@ type At<'a> = (usize, Option<&'a str>);
 impl Finder<'_, '_> {
     /// The confdata of the target of a move in a module; `None` if it is calculated.
     pub(super) fn of(&self, module: usize, step: &Move) -> Option<Written> {
-        self.within(step.target.span.clone(), (module, step.routine.as_deref()), MOST_NAMES)
+        self.within(step.target_span.clone(), (module, step.routine.as_deref()), MOST_NAMES)
     }
 
     /// The confdata of a value that is written in some bytes.

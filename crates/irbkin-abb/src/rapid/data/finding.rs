@@ -335,7 +335,7 @@ impl Finding {
 
     pub(crate) fn at(self, step: &Move, move_index: usize) -> Self {
         let what = format!("{} {}", step.instruction, step.target.text);
-        let routine = step.routine.clone();
+        let routine = step.routine.as_deref().map(Into::into);
         self.placed((step.line, step.column), routine, move_index, &what)
     }
 

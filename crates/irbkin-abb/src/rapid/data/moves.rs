@@ -1,6 +1,8 @@
 //! Move instructions.
 
+use alloc::boxed::Box;
 use alloc::string::String;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -29,9 +31,7 @@ words! {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument<T> {
     /// Source text.
-    pub text: String,
-    /// Bytes of it in the text of the module; empty if it was not read from a text.
-    pub span: Range<usize>,
+    pub text: Arc<str>,
     /// The value, or the reason why it is unknown.
     pub value: Result<T, Reason>,
 }
@@ -68,31 +68,35 @@ pub struct ExtraArgument {
 
 /// A move instruction.
 ///
-/// Values are taken from the declarations; data that the module assigns have none here.
+/// Values are taken from the declarations; data that the module assigns have none here. What many
+/// moves have is shared among them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
     /// How it moves: a line for `MoveL`, and for `MoveLDO`, `SearchL` and `ArcL` too.
     pub kind: MoveKind,
     /// Name of the instruction, as it is written.
-    pub instruction: String,
+    pub instruction: Arc<str>,
     /// The routine that contains it; `None` outside routines.
-    pub routine: Option<String>,
+    pub routine: Option<Arc<str>>,
     /// Line, from 1; 0 if it was not read from a text.
     pub line: usize,
     /// Column, from 1, in characters; 0 if it was not read from a text.
     pub column: usize,
     /// The point on the circle of a `MoveC`.
-    pub via: Option<Argument<RobTarget>>,
+    pub via: Option<Box<Argument<RobTarget>>>,
     /// The destination.
     pub target: Argument<Target>,
-    /// Source text of the speed.
-    pub speed: String,
-    /// Source text of the zone; empty for an instruction without one, which meets its target.
-    pub zone: String,
+    /// Bytes of the destination in the text of the module; empty if it was not read from a text.
+    pub target_span: Range<usize>,
+    /// The speed, with that of the tool center point that `\V` gives.
+    pub speed: Arc<Argument<SpeedData>>,
+    /// The zone, with the radius that `\Z` gives; without a text for an instruction without one,
+    /// which meets its target.
+    pub zone: Arc<Argument<ZoneData>>,
     /// The tool; `tool0` without a text for an instruction of external axes.
-    pub tool: Argument<ToolData>,
+    pub tool: Arc<Argument<ToolData>>,
     /// The work object of `\WObj:=`; without one, `wobj0`.
-    pub wobj: Option<Argument<WobjData>>,
+    pub wobj: Option<Arc<Argument<WobjData>>>,
     /// The other optional arguments, in order.
     pub options: Vec<MoveOption>,
     /// The other required arguments, in order.
@@ -101,13 +105,8 @@ pub struct Move {
     /// between: the robot does not move to `via` and `target` as written. Joint angles are not
     /// displaced.
     pub displaced: Option<usize>,
-    /// The data of `speed`, with the speed of the tool center point that `\V` gives, or the reason
-    /// why they are unknown.
-    pub speed_data: Result<SpeedData, Reason>,
-    /// The data of `zone`, with the radius that `\Z` gives, or the reason why they are unknown.
-    pub zone_data: Result<ZoneData, Reason>,
     /// The duration that `\T` gives instead of the speed [s], or the reason why it is unknown.
-    pub time: Option<Result<f64, Reason>>,
+    pub time: Option<Box<Result<f64, Reason>>>,
     /// The settings of ConfL, ConfJ, SingArea and CirPathMode before it in its routine.
     pub settings: MotionSettings,
 }
@@ -116,22 +115,21 @@ impl Move {
     /// Clear its line and column, as for a move that was not read from a text.
     pub(crate) fn clear_lines(&mut self) {
         (self.line, self.column, self.displaced) = (0, 0, self.displaced.map(|_| 0));
-        self.target.span = 0..0;
-        self.tool.span = 0..0;
-        let optional = [
-            self.via.as_mut().map(|via| &mut via.span),
-            self.wobj.as_mut().map(|wobj| &mut wobj.span),
-        ];
-        optional.into_iter().flatten().for_each(|span| *span = 0..0);
+        self.target_span = 0..0;
         let reasons = [
             self.via.as_mut().and_then(|via| via.value.as_mut().err()),
             self.target.value.as_mut().err(),
-            self.tool.value.as_mut().err(),
-            self.wobj.as_mut().and_then(|wobj| wobj.value.as_mut().err()),
-            self.speed_data.as_mut().err(),
-            self.zone_data.as_mut().err(),
-            self.time.as_mut().and_then(|time| time.as_mut().err()),
+            unknown(&mut self.tool),
+            self.wobj.as_mut().and_then(unknown),
+            unknown(&mut self.speed),
+            unknown(&mut self.zone),
+            self.time.as_mut().and_then(|time| time.as_mut().as_mut().err()),
         ];
         reasons.into_iter().flatten().for_each(Reason::clear_line);
     }
+}
+
+/// Why a shared argument is unknown, to be changed for one move.
+fn unknown<T: Clone>(argument: &mut Arc<Argument<T>>) -> Option<&mut Reason> {
+    if argument.value.is_ok() { None } else { Arc::make_mut(argument).value.as_mut().err() }
 }

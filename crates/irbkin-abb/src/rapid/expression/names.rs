@@ -61,7 +61,7 @@ pub(crate) enum Question {
 }
 
 /// Where a name is used.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct At {
     /// Index of the routine, from 1; 0 for the module.
     pub(crate) routine: usize,

@@ -248,12 +248,12 @@ fn check_numbers(datum: &Datum) -> Result<(), Error> {
 /// A procedure for each name of a routine, in order of appearance.
 fn routines(data: &[Datum], moves: &[Move]) -> Vec<Routine> {
     let mut known = BTreeSet::new();
-    let of_moves = moves.iter().filter_map(|step| step.routine.as_ref());
-    let of_data = data.iter().filter_map(|datum| datum.routine.as_ref());
+    let of_moves = moves.iter().filter_map(|step| step.routine.as_deref());
+    let of_data = data.iter().filter_map(|datum| datum.routine.as_deref());
     let names = of_moves.chain(of_data).filter(|name| known.insert(name.to_lowercase()));
-    let procedure = |name: &String| Routine {
+    let procedure = |name: &str| Routine {
         kind: RoutineKind::Proc,
-        name: name.clone(),
+        name: name.to_string(),
         header: format!("PROC {name}()"),
         line: 0,
         column: 0,

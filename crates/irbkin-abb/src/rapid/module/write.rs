@@ -87,11 +87,11 @@ fn write_option(f: &mut fmt::Formatter<'_>, name: &str, text: Option<&str>) -> f
 impl Move {
     /// The texts of the required arguments in order, each with whether it is the tool.
     fn required(&self) -> Vec<(&str, bool)> {
-        let via = self.via.as_ref().map(|via| (via.text.as_str(), false));
+        let via = self.via.as_ref().map(|via| (&*via.text, false));
         let own = [
-            (self.target.text.as_str(), false),
-            (&self.speed, false),
-            (&self.zone, false),
+            (&*self.target.text, false),
+            (&self.speed.text, false),
+            (&self.zone.text, false),
             (&self.tool.text, true),
         ];
         let mut own = via.into_iter().chain(own).filter(|(text, _)| !text.is_empty());

@@ -205,10 +205,10 @@ fn pose_of(step: &Move, via: &Argument<RobTarget>) -> OrFinding<Pose> {
 
 /// The corner at the end of a move, and whether the robot stops there.
 fn zone_of(step: &Move, found: &mut impl FnMut(Finding)) -> (Option<Zone>, bool) {
-    let zone = match &step.zone_data {
+    let zone = match &step.zone.value {
         Ok(zone) => zone,
         Err(reason) => {
-            let words = format!("zone {}: {reason}; the target is met", step.zone);
+            let words = format!("zone {}: {reason}; the target is met", step.zone.text);
             found(Finding::unknown(Code::UnknownZone, reason, words));
             return (None, true);
         }
@@ -233,7 +233,7 @@ fn left_out(field: &str, value: f64, wanted: &str) -> Finding {
 }
 
 fn speed_of(step: &Move, found: &mut impl FnMut(Finding)) -> [f64; 2] {
-    match &step.speed_data {
+    match &step.speed.value {
         Ok(speed) => {
             let numbers = [
                 ("v_tcp", speed.v_tcp_mm_s, 1e-3),
@@ -248,9 +248,9 @@ fn speed_of(step: &Move, found: &mut impl FnMut(Finding)) -> [f64; 2] {
             })
         }
         // \T replaces it.
-        Err(_) if matches!(step.time, Some(Ok(_))) => [f64::INFINITY; 2],
+        Err(_) if matches!(step.time.as_deref(), Some(Ok(_))) => [f64::INFINITY; 2],
         Err(reason) => {
-            let text = &step.speed;
+            let text = &step.speed.text;
             let words = format!("speed {text}: {reason}; the limits of the joints alone count");
             found(Finding::unknown(Code::UnknownSpeed, reason, words));
             [f64::INFINITY; 2]
@@ -260,7 +260,7 @@ fn speed_of(step: &Move, found: &mut impl FnMut(Finding)) -> [f64; 2] {
 
 /// The duration of `\T`.
 fn time_of(step: &Move, found: &mut impl FnMut(Finding)) -> Option<f64> {
-    match step.time.as_ref()? {
+    match step.time.as_deref()? {
         Ok(time) if *time > 0.0 => return Some(*time),
         Ok(time) => found(left_out("\\T", *time, "positive")),
         Err(reason) => {

@@ -2,6 +2,7 @@
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::{String, ToString};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::routine::RoutineMotion;
@@ -39,25 +40,23 @@ impl<const N: usize> RoutineMotion<N> {
             let tool = data.tool(&step.tool);
             moves.push(Move {
                 kind: MoveKind::MoveAbsJ,
-                instruction: MoveKind::MoveAbsJ.name().to_string(),
-                routine: Some(routine.clone()),
+                instruction: MoveKind::MoveAbsJ.name().into(),
+                routine: Some(routine.as_str().into()),
                 line: 0,
                 column: 0,
                 via: None,
                 target: Argument {
-                    text: target.to_string(),
-                    span: 0..0,
+                    text: target.to_string().into(),
                     value: Ok(Target::JointTarget(target)),
                 },
-                speed: numbers(&step.speed, step.speed_data.as_ref().ok()),
-                zone: numbers(&step.zone, step.zone_data.as_ref().ok()),
-                tool,
-                wobj: step.wobj.as_ref().map(|wobj| data.wobj(wobj)),
+                target_span: 0..0,
+                speed: numbers(&step.speed),
+                zone: numbers(&step.zone),
+                tool: tool.into(),
+                wobj: step.wobj.as_ref().map(|wobj| data.wobj(wobj).into()),
                 options: time(step).into_iter().collect(),
                 extra: Vec::new(),
                 displaced: None,
-                speed_data: step.speed_data.clone(),
-                zone_data: step.zone_data.clone(),
                 time: step.time.clone(),
                 settings: MotionSettings::default(),
             });
@@ -68,18 +67,18 @@ impl<const N: usize> RoutineMotion<N> {
 
 /// The duration of `\T`, if it is known.
 fn time(step: &Move) -> Option<MoveOption> {
-    let Some(Ok(time)) = &step.time else { return None };
+    let Some(Ok(time)) = step.time.as_deref() else { return None };
     let text = Some(Value::Num(*time).to_string());
     Some(MoveOption { after: 2, name: "T".to_string(), text })
 }
 
 /// A speed or a zone as its own name or, if it is not RAPID's own or an option changes it, as
 /// numbers.
-fn numbers<T: ToString>(text: &str, value: Option<&T>) -> String {
-    let Some(value) = value else { return text.to_string() };
-    let written = value.to_string();
+fn numbers<T: Clone + ToString>(Argument { text, value }: &Argument<T>) -> Arc<Argument<T>> {
+    let written = value.as_ref().map_or_else(|_| text.to_string(), ToString::to_string);
     let own = predefined(&text.to_lowercase()).map(|own| own.to_string());
-    if own.as_deref() == Some(written.as_str()) { text.to_string() } else { written }
+    let text = if own.as_ref() == Some(&written) { text.clone() } else { written.into() };
+    Arc::new(Argument { text, value: value.clone() })
 }
 
 /// The tools and work objects that moves name.
@@ -98,14 +97,14 @@ impl Data {
         let value = value.map(|tool| Value::ToolData(*tool));
         let is_own = tool.value == Ok(ToolData::TOOL0);
         let text = if is_own { "tool0".to_string() } else { self.name("tool", &tool.text, value) };
-        Argument { text, span: 0..0, value: tool.value.clone() }
+        Argument { text: text.into(), value: tool.value.clone() }
     }
 
     fn wobj(&mut self, wobj: &Argument<WobjData>) -> Argument<WobjData> {
         let value = wobj.value.as_ref().ok().map(|wobj| Value::WobjData(wobj.clone()));
         let is_own = wobj.value == Ok(WobjData::WOBJ0);
         let text = if is_own { "wobj0".to_string() } else { self.name("wobj", &wobj.text, value) };
-        Argument { text, span: 0..0, value: wobj.value.clone() }
+        Argument { text: text.into(), value: wobj.value.clone() }
     }
 
     /// The name of a datum, which is declared with its value.

@@ -98,12 +98,12 @@ impl Frame {
         };
         let module;
         (module, step.line, step.column) = site.place;
-        step.routine.clone_from(&site.routine);
-        step.instruction.clone_from(&site.called);
-        step.target.span = 0..0;
+        step.routine = site.routine.as_deref().map(Into::into);
+        step.instruction = site.called.as_str().into();
+        step.target_span = 0..0;
         if let Some(target) = target {
-            step.target.text = target.written;
-            step.target.span = target.span;
+            step.target.text = target.written.into();
+            step.target_span = target.span;
         }
         module
     }

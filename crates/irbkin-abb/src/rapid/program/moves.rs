@@ -1,7 +1,9 @@
 //! Moves with the values that they have at a place, and what displaces their targets there.
 
 use alloc::borrow::Cow;
+use alloc::boxed::Box;
 use alloc::rc::Rc;
+use alloc::sync::Arc;
 
 use super::state::{Displacement, Offsets, Place, State};
 use super::values::{Scope, argument};
@@ -28,9 +30,9 @@ impl Scope<'_, '_> {
             && own.via.as_ref().is_none_or(|via| via.value.is_ok())
             && own.tool.value.is_ok()
             && own.wobj.as_ref().is_none_or(|wobj| wobj.value.is_ok())
-            && own.speed_data.is_ok()
-            && own.zone_data.is_ok()
-            && own.time.as_ref().is_none_or(Result::is_ok);
+            && own.speed.value.is_ok()
+            && own.zone.value.is_ok()
+            && own.time.as_ref().is_none_or(|time| time.is_ok());
         if is_known && self.program.effects.by_reference.is_empty() {
             return false;
         }
@@ -49,14 +51,15 @@ impl Scope<'_, '_> {
         let takes_last = self.takes_last.get();
         let is_joints = step.kind == MoveKind::MoveAbsJ;
         self.takes_last.set(takes_last && !is_joints);
-        self.argument(&mut step.tool);
-        self.give(&mut step.tool, is_joints);
+        let tool = Arc::make_mut(&mut step.tool);
+        self.argument(tool);
+        self.give(tool, is_joints);
         let absent = step.wobj.as_ref().and_then(|wobj| wobj.text.strip_prefix('?'));
         if absent.is_some_and(|name| self.frame.absent.contains(&name.trim().to_lowercase())) {
             step.wobj = None;
         }
         if let Some(wobj) = &mut step.wobj {
-            self.argument(wobj);
+            self.argument(Arc::make_mut(wobj));
         }
         self.takes_last.set(false);
         self.choices.without(|| self.pace(step));
@@ -70,8 +73,7 @@ impl Scope<'_, '_> {
             return;
         }
         let reason = target.value.as_ref().err().cloned().unwrap_or(Reason::Unfinished);
-        let (text, span) = (target.text.clone(), target.span.clone());
-        let mut own: Argument<T> = Argument { text, span, value: Err(reason) };
+        let mut own: Argument<T> = Argument { text: target.text.clone(), value: Err(reason) };
         self.argument(&mut own);
         target.value = own.value.map(made);
     }
@@ -86,7 +88,7 @@ impl Scope<'_, '_> {
             Ok(value) => {
                 argument.value = Ok(value);
                 if let Some(given) = self.frame.texts.get(&text.trim().to_lowercase()) {
-                    argument.text.clone_from(&given.written);
+                    argument.text = given.written.as_str().into();
                 }
             }
             // The reader knows better why, except of parameters and of lines that it does not name.
@@ -130,15 +132,15 @@ impl Scope<'_, '_> {
         let has = |step: &Move, name: &str| {
             step.options.iter().any(|option| option.name.eq_ignore_ascii_case(name))
         };
-        if step.speed_data.is_err() && !has(step, "V") {
-            let known = self.record(&step.speed);
-            step.speed_data = known.map_err(|reason| self.frame.named(reason));
+        if step.speed.value.is_err() && !has(step, "V") {
+            let known = self.record(&step.speed.text);
+            Arc::make_mut(&mut step.speed).value = known.map_err(|it| self.frame.named(it));
         }
-        if step.zone_data.is_err() && !has(step, "Z") {
-            let known = self.record(&step.zone);
-            step.zone_data = known.map_err(|reason| self.frame.named(reason));
+        if step.zone.value.is_err() && !has(step, "Z") {
+            let known = self.record(&step.zone.text);
+            Arc::make_mut(&mut step.zone).value = known.map_err(|it| self.frame.named(it));
         }
-        if !matches!(step.time, Some(Err(_))) {
+        if step.time.as_ref().is_none_or(|time| time.is_ok()) {
             return;
         }
         let option = step.options.iter().find(|option| option.name.eq_ignore_ascii_case("T"));
@@ -148,7 +150,8 @@ impl Scope<'_, '_> {
             step.time = None;
         } else {
             let text = text.trim_start_matches('?');
-            step.time = Some(argument(text).and_then(|it| self.evaluated(text, &it)));
+            let time = argument(text).and_then(|it| self.evaluated(text, &it));
+            step.time = Some(Box::new(time));
         }
     }
 
@@ -300,7 +303,7 @@ pub(super) fn place_behind(step: &Move, written: &Move) -> Place {
     // Others are searches and processes with sensors.
     let name = written.instruction.to_lowercase();
     let meets = name.starts_with("move") || name.starts_with("trigg");
-    let stops = has("Inpos") || step.zone_data.as_ref().is_ok_and(|zone| zone.finep);
+    let stops = has("Inpos") || step.zone.value.as_ref().is_ok_and(|zone| zone.finep);
     let wobj = step.wobj.as_ref().map_or(Ok(WobjData::WOBJ0), |wobj| wobj.value.clone());
     match (&step.target.value, &step.tool.value, wobj, step.displaced) {
         _ if !meets || has("Conc") || has("Corr") => Err("the move before it may end elsewhere"),

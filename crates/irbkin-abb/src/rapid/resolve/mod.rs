@@ -55,7 +55,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         faults,
     };
     resolver.resolve_all()?;
-    module.moves = resolver.moves(&mut moves, &mut module.statements, &module.routines)?;
+    module.moves = resolver.moves(&mut moves, &mut module.statements)?;
     let Resolver { contents, causes, faults, .. } = resolver;
     module.faults = faults.kept;
     module.faults.sort_by_key(|fault| (fault.line, fault.column));

@@ -1,25 +1,40 @@
 //! Moves with the values of their arguments.
 
 use alloc::boxed::Box;
+use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::resolver::Resolver;
-use crate::rapid::data::expression::{Expression, Optional};
-use crate::rapid::data::module::{Routine, routine_name};
+use crate::rapid::data::expression::{Arguments, Expression, Optional};
 use crate::rapid::data::moves::{Argument, ExtraArgument, Move, MoveKind, MoveOption, Target};
 use crate::rapid::data::moving::Places;
-use crate::rapid::data::records::{SpeedData, ToolData, ZoneData};
+use crate::rapid::data::records::{SpeedData, ToolData, WobjData, ZoneData};
 use crate::rapid::data::statement::{Instruction, Statement, StatementKind};
 use crate::rapid::data::types::Record;
 use crate::rapid::data::unread::Reason;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
+use crate::rapid::expression::names::At;
 use crate::rapid::statements::moves::WrittenMove;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::place::Place;
 
 /// A value, or the reason why it is unknown.
 type Known<T> = Result<T, Reason>;
+
+/// Arguments of moves by their places and their texts: what is written the same there is the same.
+type Shared<'a, T> = BTreeMap<(At, &'a str), Arc<Argument<T>>>;
+
+/// What many moves have.
+#[derive(Default)]
+struct Sharing<'a> {
+    names: BTreeMap<&'a str, Arc<str>>,
+    speeds: Shared<'a, SpeedData>,
+    zones: Shared<'a, ZoneData>,
+    tools: Shared<'a, ToolData>,
+    wobjs: Shared<'a, WobjData>,
+}
 
 impl<'a> Resolver<'a> {
     /// An argument of a move, of a type.
@@ -30,8 +45,24 @@ impl<'a> Resolver<'a> {
         expression: &Expression<'a>,
     ) -> Result<Argument<T>, RapidFault> {
         let value = known(self.evaluator(step, role).record(expression))?;
-        let span = expression.start..expression.end;
-        Ok(Argument { text: self.source(expression), span, value })
+        Ok(Argument { text: self.source(expression).into(), value })
+    }
+
+    /// An argument that other moves may have, too.
+    fn shared<T: Record>(
+        &self,
+        step: &WrittenMove<'a>,
+        role: &'static str,
+        expression: &Expression<'a>,
+        shared: &mut Shared<'a, T>,
+    ) -> Result<Arc<Argument<T>>, RapidFault> {
+        let by = (step.at, self.source(expression));
+        if let Some(known) = shared.get(&by) {
+            return Ok(known.clone());
+        }
+        let argument = Arc::new(self.argument(step, role, expression)?);
+        shared.insert(by, argument.clone());
+        Ok(argument)
     }
 
     /// The evaluator of an argument of a move.
@@ -61,43 +92,8 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The speed with `\V`.
-    fn speed(
-        &self,
-        step: &WrittenMove<'a>,
-        speed: &Expression<'a>,
-    ) -> Result<Known<SpeedData>, RapidFault> {
-        let speed: Known<SpeedData> = known(self.evaluator(step, "speed").record(speed))?;
-        let velocity = self.option(step, "\\V")?;
-        Ok(match velocity {
-            None => speed,
-            Some(velocity) => {
-                speed.and_then(|speed| velocity.map(|v_tcp_mm_s| SpeedData { v_tcp_mm_s, ..speed }))
-            }
-        })
-    }
-
-    /// The zone with `\Z`; without one the target is met.
-    fn zone(
-        &self,
-        step: &WrittenMove<'a>,
-        zone: Option<&Expression<'a>>,
-    ) -> Result<Known<ZoneData>, RapidFault> {
-        let zone: Known<ZoneData> = match zone {
-            None => Ok(ZoneData::FINE),
-            Some(zone) => known(self.evaluator(step, "zone").record(zone))?,
-        };
-        let radius = self.option(step, "\\Z")?;
-        Ok(match radius {
-            None => zone,
-            Some(radius) => {
-                zone.and_then(|zone| radius.map(|pzone_tcp_mm| ZoneData { pzone_tcp_mm, ..zone }))
-            }
-        })
-    }
-
-    fn source(&self, expression: &Expression<'_>) -> String {
-        self.text.get(expression.start..expression.end).unwrap_or_default().to_string()
+    fn source(&self, expression: &Expression<'_>) -> &'a str {
+        self.text.get(expression.start..expression.end).unwrap_or_default()
     }
 
     /// The places of the arguments of a move; `None` if they are of another instruction.
@@ -116,9 +112,9 @@ impl<'a> Resolver<'a> {
         &mut self,
         written: &mut [WrittenMove<'a>],
         statements: &mut [Statement],
-        routines: &[Routine],
     ) -> Result<Vec<Move>, RapidFault> {
         let mut moves = Vec::with_capacity(written.len());
+        let mut sharing = Sharing::default();
         for (index, statement) in statements.iter_mut().enumerate() {
             self.faults.interrupt.check(index)?;
             let place = match &mut statement.kind {
@@ -132,11 +128,13 @@ impl<'a> Resolver<'a> {
             let Some(step) = written.get_mut(*place) else { continue };
             // A routine may have the name of an instruction.
             let is_call = !step.instruction.is_basic() && self.is_routine(step.name);
-            let made = if is_call { Ok(None) } else { self.step(step, routines) };
+            let routine = statement.routine.clone();
+            let made = if is_call { Ok(None) } else { self.step(step, routine, &mut sharing) };
             let kind = match made {
                 Ok(Some(made)) => {
                     *place = moves.len();
                     moves.push(made);
+                    step.arguments = Arguments::default();
                     continue;
                 }
                 Ok(None) => {
@@ -161,7 +159,8 @@ impl<'a> Resolver<'a> {
     fn step(
         &self,
         step: &WrittenMove<'a>,
-        routines: &[Routine],
+        routine: Option<Arc<str>>,
+        sharing: &mut Sharing<'a>,
     ) -> Result<Option<Move>, RapidFault> {
         let Some(places) = self.places(step) else { return Ok(None) };
         let Places { via, target, speed, zone, tool } = places;
@@ -169,44 +168,54 @@ impl<'a> Resolver<'a> {
         let (Some(target), Some(speed)) = (target, speed) else { return Ok(None) };
         let [via, zone, tool] = [via, zone, tool].map(|place| step.arguments.required.get(place?));
         let way = step.instruction.way;
+        let target_span = target.start..target.end;
         let target = if matches!(way, MoveKind::MoveAbsJ | MoveKind::MoveExtJ) {
-            let Argument { text, span, value } = self.argument(step, "target", target)?;
-            Argument { text, span, value: value.map(Target::JointTarget) }
+            let Argument { text, value } = self.argument(step, "target", target)?;
+            Argument { text, value: value.map(Target::JointTarget) }
         } else {
-            let Argument { text, span, value } = self.argument(step, "target", target)?;
-            Argument { text, span, value: value.map(Target::RobTarget) }
+            let Argument { text, value } = self.argument(step, "target", target)?;
+            Argument { text, value: value.map(Target::RobTarget) }
         };
-        let no_tool = Argument { text: String::new(), span: 0..0, value: Ok(ToolData::TOOL0) };
+        let Sharing { names, speeds, zones, tools, wobjs } = sharing;
+        let speed = self.shared(step, "speed", speed, speeds)?;
+        let velocity = self.option(step, "\\V")?;
+        // Without a zone the target is met.
+        let zone = match zone {
+            Some(zone) => self.shared(step, "zone", zone, zones)?,
+            None => Arc::new(Argument { text: "".into(), value: Ok(ZoneData::FINE) }),
+        };
+        let radius = self.option(step, "\\Z")?;
         let is_wobj = |it: &Optional<'_>| it.is("WObj") && it.value.is_some();
         let wobj = step.arguments.optional.iter().position(is_wobj);
         let options = step.arguments.optional.iter().enumerate();
         let options = options.filter(|(place, _)| Some(*place) != wobj).map(|(_, it)| MoveOption {
             after: it.after,
             name: it.name.to_string(),
-            text: it.value.as_ref().map(|value| self.source(value)),
+            text: it.value.as_ref().map(|value| self.source(value).to_string()),
         });
-        let wobj = step.arguments.value("WObj").map(|it| self.argument(step, "work object", it));
+        let wobj = step.arguments.value("WObj");
+        let wobj = wobj.map(|it| self.shared(step, "work object", it, wobjs));
+        let via = via.map(|via| self.argument(step, "circle point", via)).transpose()?;
         Ok(Some(Move {
             kind: way,
-            instruction: step.name.to_string(),
-            routine: routine_name(routines, step.at.routine),
+            instruction: names.entry(step.name).or_insert_with(|| step.name.into()).clone(),
+            routine,
             line: step.line,
             column: step.column,
-            via: via.map(|via| self.argument(step, "circle point", via)).transpose()?,
+            via: via.map(Box::new),
             target,
-            speed: self.source(speed),
-            zone: zone.map(|zone| self.source(zone)).unwrap_or_default(),
+            target_span,
+            speed: with(speed, velocity, |it, v_tcp_mm_s| SpeedData { v_tcp_mm_s, ..it }),
+            zone: with(zone, radius, |it, pzone_tcp_mm| ZoneData { pzone_tcp_mm, ..it }),
             tool: match tool {
-                Some(tool) => self.argument(step, "tool", tool)?,
-                None => no_tool,
+                Some(tool) => self.shared(step, "tool", tool, tools)?,
+                None => Arc::new(Argument { text: "".into(), value: Ok(ToolData::TOOL0) }),
             },
             wobj: wobj.transpose()?,
             options: options.collect(),
             extra: self.extra(step, places),
             displaced: step.displaced,
-            speed_data: self.speed(step, speed)?,
-            zone_data: self.zone(step, zone)?,
-            time: self.option(step, "\\T")?,
+            time: self.option(step, "\\T")?.map(Box::new),
             settings: step.settings,
         }))
     }
@@ -217,8 +226,22 @@ impl<'a> Resolver<'a> {
         let own = [via, Some(target), Some(speed), zone, tool];
         let all = step.arguments.required.iter().enumerate();
         let extra = all.filter(|(place, _)| !own.contains(&Some(*place)));
-        extra.map(|(place, it)| ExtraArgument { place, text: self.source(it) }).collect()
+        let own = |(place, it)| ExtraArgument { place, text: self.source(it).to_string() };
+        extra.map(own).collect()
     }
+}
+
+/// An argument with the number of an option, if the move has it.
+fn with<T: Copy>(
+    mut argument: Arc<Argument<T>>,
+    number: Option<Known<f64>>,
+    set: fn(T, f64) -> T,
+) -> Arc<Argument<T>> {
+    if let Some(number) = number {
+        let own = Arc::make_mut(&mut argument);
+        own.value = own.value.clone().and_then(|value| Ok(set(value, number?)));
+    }
+    argument
 }
 
 /// A value, or the reason why it is unknown.

@@ -17,7 +17,7 @@ fn moves(text: &str) -> Vec<Move> {
 
 /// The speed of the tool [mm/s] and the radius of the zone [mm] of a move.
 fn pace(step: &Move) -> (f64, f64) {
-    (step.speed_data.clone().unwrap().v_tcp_mm_s, step.zone_data.clone().unwrap().pzone_tcp_mm)
+    (step.speed.value.clone().unwrap().v_tcp_mm_s, step.zone.value.clone().unwrap().pzone_tcp_mm)
 }
 
 #[test]
@@ -42,7 +42,7 @@ fn speeds_and_zones_are_those_of_rapid_or_of_the_module() {
         (1.0, 0.0),
     ];
     assert_eq!(found, wanted);
-    let fine: Vec<_> = moves.iter().map(|step| step.zone_data.clone().unwrap().finep).collect();
+    let fine: Vec<_> = moves.iter().map(|step| step.zone.value.clone().unwrap().finep).collect();
     assert_eq!(fine, [false, true, false, false, false, false, true]);
     let z50 = ZoneData {
         finep: false,
@@ -78,15 +78,15 @@ fn options_replace_parts_of_the_speed_and_of_the_zone() {
          ENDPROC",
     );
     assert_eq!(pace(&moves[0]), (60.0, 7.0));
-    assert_eq!(moves[0].zone_data.clone().unwrap().pzone_ori_mm, 15.0);
-    assert_eq!((moves[0].time.clone(), moves[1].time.clone()), (None, Some(Ok(5.0))));
+    assert_eq!(moves[0].zone.value.clone().unwrap().pzone_ori_mm, 15.0);
+    assert_eq!((moves[0].time.as_deref(), moves[1].time.as_deref()), (None, Some(&Ok(5.0))));
     let optional = "it depends on whether an optional argument is there";
     assert_eq!(words(&moves[2].time.clone().unwrap()), optional);
-    assert_eq!(words(&moves[2].zone_data), optional);
-    assert_eq!(words(&moves[3].speed_data), "refers to n, a parameter of go");
-    assert_eq!(words(&moves[3].zone_data), "it is not finished");
+    assert_eq!(words(&moves[2].zone.value), optional);
+    assert_eq!(words(&moves[3].speed.value), "refers to n, a parameter of go");
+    assert_eq!(words(&moves[3].zone.value), "it is not finished");
     for step in &moves[4..] {
-        assert_eq!(words(&step.speed_data), "refers to vUnknown, which is not in this module");
+        assert_eq!(words(&step.speed.value), "refers to vUnknown, which is not in this module");
     }
 }
 
@@ -96,7 +96,7 @@ fn a_speed_that_is_assigned_is_not_known_where_the_program_moves() {
         "VAR speeddata v:=[10,500,5000,1000];
          PROC main() v:=v100; v.v_tcp:=5; MoveL p,v,z1,tool0; ENDPROC",
     );
-    assert_eq!(words(&moves[0].speed_data), "refers to v, which line 4 assigns");
+    assert_eq!(words(&moves[0].speed.value), "refers to v, which line 4 assigns");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::format;
 use std::string::String;
 use std::string::ToString;
+use std::sync::Arc;
 use std::vec::Vec;
 
 use super::*;
@@ -31,10 +32,7 @@ fn moves_are_read_with_all_their_arguments() {
         (first.kind, first.line, first.column, first.routine.as_deref()),
         (MoveKind::MoveJ, 5, 1, Some("main"))
     );
-    assert_eq!(
-        (first.target.text.as_str(), first.speed.as_str(), first.zone.as_str()),
-        ("p", "v100", "z10")
-    );
+    assert_eq!((&*first.target.text, &*first.speed.text, &*first.zone.text), ("p", "v100", "z10"));
     assert_eq!(first.tool.value, Ok(ToolData::TOOL0));
     assert_eq!(first.wobj.as_ref().unwrap().value, Ok(WobjData::WOBJ0));
     let option = |after, name: &str, text: Option<&str>| MoveOption {
@@ -59,14 +57,11 @@ fn moves_are_read_with_all_their_arguments() {
     assert_eq!(first.to_string(), written);
     let Ok(Target::RobTarget(target)) = &second.target.value else { panic!() };
     assert_eq!((target.trans_mm, second.wobj.is_none()), ([1.0, 2.0, 53.0], true));
-    assert_eq!(
-        (circle.via.as_ref().unwrap().text.as_str(), circle.target.text.as_str()),
-        ("p", "pts{1}")
-    );
+    assert_eq!((&*circle.via.as_ref().unwrap().text, &*circle.target.text), ("p", "pts{1}"));
     assert!(circle.via.as_ref().unwrap().value.is_ok());
     let Ok(Target::JointTarget(target)) = &joints.target.value else { panic!() };
     assert_eq!(target.robax_deg[4], 30.0);
-    assert_eq!(inline.target.text, "[[1,2,3,4,5,6], [9E9,9E9,9E9,9E9,9E9,9E9]]");
+    assert_eq!(&*inline.target.text, "[[1,2,3,4,5,6], [9E9,9E9,9E9,9E9,9E9,9E9]]");
     again(&module, &[]);
 }
 
@@ -100,7 +95,7 @@ fn required_arguments_may_be_named() {
     );
     assert!(module.moves().iter().all(|step| step.target.value.is_ok() && step.tool.value.is_ok()));
     assert_eq!(module.moves()[0].to_string(), "MoveL p,v100,z1,tool0\\WObj:=w;");
-    assert_eq!(module.moves()[1].via.as_ref().unwrap().text, "p");
+    assert_eq!(&*module.moves()[1].via.as_ref().unwrap().text, "p");
     let Ok(Target::RobTarget(shifted)) = module.moves()[3].target.value else { panic!() };
     assert_eq!(shifted.trans_mm, [1.0, 2.0, 8.0]);
     again(&module, &[]);
@@ -116,7 +111,7 @@ fn moves_in_branches_and_loops_are_listed_in_order() {
          MoveL Offs(p,i,0,0), v5, fine, tool0;
          ERROR MoveL p, v6, fine, tool0;",
     );
-    let speeds: Vec<_> = module.moves().iter().map(|step| step.speed.as_str()).collect();
+    let speeds: Vec<_> = module.moves().iter().map(|step| &*step.speed.text).collect();
     assert_eq!(speeds, ["v1", "v2", "v3", "v4", "v5", "v6"]);
     assert_eq!(words(&module.moves()[3].target.value), "refers to i, the variable of a loop");
     assert!(module.moves()[4].target.value.is_ok());
@@ -189,16 +184,13 @@ fn moves_with_a_process_are_read() {
     assert_eq!(kinds.join(" ").replace("Move", ""), "L J L L C L C L L L L ExtJ L");
     for step in module.moves() {
         assert_eq!(words(&step.target.value) + &words(&step.tool.value), "", "{step}");
-        assert_eq!(words(&step.speed_data) + &words(&step.zone_data), "", "{step}");
+        assert_eq!(words(&step.speed.value) + &words(&step.zone.value), "", "{step}");
     }
-    let finish = |index: usize| module.moves()[index].zone_data.as_ref().unwrap().finep;
+    let finish = |index: usize| module.moves()[index].zone.value.as_ref().unwrap().finep;
     assert!([3, 4, 7].into_iter().all(finish) && ![0, 8].into_iter().any(finish));
     let search = &module.moves()[3];
     let extra: Vec<_> = search.extra.iter().map(|it| (it.place, it.text.as_str())).collect();
-    assert_eq!(
-        (search.instruction.as_str(), extra),
-        ("SearchL", [(0, "di1"), (1, "found")].into())
-    );
+    assert_eq!((&*search.instruction, extra), ("SearchL", [(0, "di1"), (1, "found")].into()));
     again(&module, &[]);
 }
 
@@ -221,4 +213,20 @@ fn routines_with_the_name_of_an_instruction_are_called() {
     );
     let labels = read("PROC a() ArcL: PaintL:=1; DispL{2}:=1; ENDPROC");
     assert_eq!(labels.skipped().len(), 3);
+}
+
+#[test]
+fn what_is_written_the_same_is_shared() {
+    let module = module(
+        "MoveL p,v100,z10,tool0\\WObj:=w; MoveL p,v100,z10,tool0\\WObj:=w;
+         MoveL p,v100\\V:=5,z10\\Z:=3,tool0;",
+    );
+    let [first, second, other] = module.moves() else { panic!() };
+    assert!(Arc::ptr_eq(&first.speed, &second.speed) && Arc::ptr_eq(&first.zone, &second.zone));
+    assert!(Arc::ptr_eq(&first.tool, &second.tool) && Arc::ptr_eq(&first.tool, &other.tool));
+    assert!(Arc::ptr_eq(first.wobj.as_ref().unwrap(), second.wobj.as_ref().unwrap()));
+    assert_eq!(&*other.speed.text, "v100");
+    assert_eq!(other.speed.value.as_ref().unwrap().v_tcp_mm_s, 5.0);
+    assert_eq!(other.zone.value.as_ref().unwrap().pzone_tcp_mm, 3.0);
+    assert_eq!(first.speed.value.as_ref().unwrap().v_tcp_mm_s, 100.0);
 }

@@ -26,7 +26,7 @@ fn last(text: &str, context: &[&Module]) -> (Result<f64, String>, Result<f64, St
         Target::RobTarget(target) => target.trans_mm[0],
         Target::JointTarget(_) => panic!(),
     });
-    let z = step.tool.value.map(|tool| tool.tframe.trans_mm[2]);
+    let z = step.tool.value.clone().map(|tool| tool.tframe.trans_mm[2]);
     (x.map_err(|reason| reason.to_string()), z.map_err(|reason| reason.to_string()))
 }
 

@@ -28,7 +28,7 @@ fn faults(module: &Module) -> Vec<String> {
 
 /// The speeds of the moves.
 fn speeds(module: &Module) -> Vec<&str> {
-    module.moves().iter().map(|step| step.speed.as_str()).collect()
+    module.moves().iter().map(|step| &*step.speed.text).collect()
 }
 
 #[test]
