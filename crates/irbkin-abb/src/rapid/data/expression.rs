@@ -6,6 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::unread::Reason;
+use super::value::Value;
 use crate::rapid::text::place::excerpt;
 
 /// A name in an expression: of the text that is read or, in a module, its own.
@@ -70,6 +71,7 @@ impl<'a> Expression<'a> {
             Form::Text(text) => Form::Text(owned(text)),
             Form::Bool(value) => Form::Bool(value),
             Form::Aggregate(parts) => Form::Aggregate(all_owned(parts, begin)),
+            Form::Value(value) => Form::Value(value),
             Form::Name(name) => Form::Name(owned(name)),
             Form::Reference(it) => Form::Reference(Box::new(Reference {
                 name: owned(it.name),
@@ -115,6 +117,8 @@ pub(crate) enum Form<'a> {
     Text(Name<'a>),
     Bool(bool),
     Aggregate(Vec<Expression<'a>>),
+    /// An aggregate without names, read for its type.
+    Value(Box<Value>),
     /// A name by itself, the most frequent reference.
     Name(Name<'a>),
     Reference(Box<Reference<'a>>),

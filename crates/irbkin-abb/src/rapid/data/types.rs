@@ -1,11 +1,11 @@
 //! The types of RAPID: their names and components, and the atoms that values consist of.
 
+use alloc::borrow::Cow;
 use alloc::format;
 use alloc::string::String;
 use arrayvec::ArrayVec;
 use core::fmt;
 
-use super::expression::Name;
 use irbkin::Configuration;
 
 #[derive(Debug)]
@@ -105,7 +105,10 @@ impl Type {
     }
 
     /// The type that components lead to, and the atoms before it.
-    pub(crate) fn part(&'static self, components: &[Name<'_>]) -> Option<(&'static Self, usize)> {
+    pub(crate) fn part(
+        &'static self,
+        components: &[Cow<'_, str>],
+    ) -> Option<(&'static Self, usize)> {
         components.iter().try_fold((self, 0), |(of, begin), component| {
             let (part, before) = of.component(component)?;
             Some((part, begin + before))

@@ -1,33 +1,35 @@
 //! Values without names and operators, most of a large module: read straight into their records,
 //! without tokens and trees.
 
+use alloc::boxed::Box;
 use alloc::string::String;
-use core::ops::Range;
 
 use super::evaluate::whole;
+use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::types::{Atom, Atoms, Shape, Type};
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::text::literals::{decimal, unquoted};
 use crate::rapid::text::tokens::{LONGEST_STRING, Tokens, behind_blanks};
 use crate::rapid::text::words::end_of_word;
 
-/// A value of a type up to its semicolon, with its bytes.
+/// A value of a type up to the symbol that ends it.
 ///
 /// `None` for anything that is not such a value, including an invalid text: the tokens are left
 /// unchanged, to be read as an expression, which reports the error.
-pub(crate) fn read_direct(
-    tokens: &mut Tokens<'_>,
+pub(crate) fn read_direct<'a>(
+    tokens: &mut Tokens<'a>,
     data_type: DataType,
-) -> Option<(Value, Range<usize>)> {
+    ending: u8,
+) -> Option<Expression<'a>> {
     let start = tokens.peek().start;
     let mut reader = DirectReader { text: tokens.text, bytes: tokens.content(), at: start };
     let mut atoms = Atoms::new();
     reader.fill(data_type.described(), &mut atoms)?;
     let value = Value::of(data_type, atoms)?;
     let end = reader.at;
-    reader.take(b';')?;
+    reader.take(ending)?;
     tokens.resume(end);
-    Some((value, start..end))
+    Some(Expression { start, end, form: Form::Value(Box::new(value)) })
 }
 
 struct DirectReader<'a> {

@@ -136,6 +136,10 @@ impl Evaluator<'_, '_> {
                 self.fill_aggregate(expression, (parts, components), place, atoms)
             }
             (Form::Aggregate(_), _) => wrong("an aggregate"),
+            (Form::Value(value), _) => {
+                atoms.extend(value.atoms());
+                Ok(())
+            }
             (Form::Name(name), _) => {
                 self.fill_reference(expression, (name, &[], &[]), place, atoms)
             }

@@ -352,16 +352,21 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     fn call(&mut self, token: Token, open: Token) -> Result<Call<'a>, RapidFault> {
         self.begin(open)?;
         let name = self.tokens.text_of(token);
-        let arguments = self.arguments()?;
+        let arguments = self.arguments(None)?;
         self.close(open, b')')?;
         note(self.tokens, token.start, token, true, &arguments);
         Ok(Call { name: name.into(), arguments, components: self.tokens.components()? })
     }
 
-    /// The arguments of a function, an instruction or a call, up to what ends them.
-    pub(crate) fn arguments(&mut self) -> Result<Arguments<'a>, RapidFault> {
+    /// The arguments of a function, an instruction or a call, up to what ends them; perhaps the first
+    /// is already read.
+    pub(crate) fn arguments(
+        &mut self,
+        first: Option<Expression<'a>>,
+    ) -> Result<Arguments<'a>, RapidFault> {
         let mut found = Arguments::default();
-        for count in 0.. {
+        found.required.extend(first);
+        for count in found.required.len().. {
             let token = self.tokens.peek();
             let is_outside = self.depth == 0;
             let is_end =

@@ -134,7 +134,7 @@ impl<'a> Blocks<'a> {
             // A handler may name the errors that it handles.
             "ERROR" if tokens.peek().is(b'(') => {
                 tokens.take()?;
-                ExpressionReader::of_condition(tokens).arguments()?;
+                ExpressionReader::of_condition(tokens).arguments(None)?;
                 tokens.demand(b')', "a comma or )")?;
                 Flow::Handler
             }

@@ -7,7 +7,7 @@ use super::declared::known_at_once;
 use super::faults::{Faults, end_statement};
 use super::parts::{DatumPart, read_parts};
 use super::types::{TypeKind, Types};
-use crate::rapid::data::module::{Content, Scope, Storage};
+use crate::rapid::data::module::{Scope, Storage};
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::direct::read_direct;
 use crate::rapid::expression::reader::ExpressionReader;
@@ -89,11 +89,11 @@ pub(crate) fn read_declaration<'a>(
         size.collect_names(&mut names);
     }
     let size_names = names.len();
-    let (value_place, mut value, mut direct) = (tokens.last_end, None, None);
+    let (value_place, mut value) = (tokens.last_end, None);
     if tokens.peek().kind == TokenKind::Assign {
         tokens.take()?;
-        direct = if sizes.is_empty() { read_direct(tokens, data_type) } else { None };
-        if direct.is_none() {
+        value = if sizes.is_empty() { read_direct(tokens, data_type, b';') } else { None };
+        if value.is_none() {
             let read = ExpressionReader::new(tokens).expression()?;
             read.collect_names(&mut names);
             value = Some(read);
@@ -117,10 +117,6 @@ pub(crate) fn read_declaration<'a>(
         column,
         written: None,
     };
-    if let Some((value, span)) = direct {
-        let placed = Placed::new(Content::Single(value), span);
-        return Ok(Declaration::Read(declared, Some(placed)));
-    }
     let written = WrittenContent { data_type, sizes, value, value_place };
     let (declared, content) = known_at_once(tokens.text, declared, written, faults.is_tolerant)?;
     Ok(Declaration::Read(declared, content))

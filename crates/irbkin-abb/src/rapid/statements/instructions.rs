@@ -175,7 +175,7 @@ impl<'a> StatementReader<'a> {
     /// An instruction or a call, behind its name; without one the name is calculated.
     pub(super) fn call(&mut self, first: Token, named: Option<Token>) -> Result<(), RapidFault> {
         let name = named.map(|it| self.tokens.text_of(it).trim_matches('"'));
-        let arguments = ExpressionReader::of_statement(&mut self.tokens).arguments()?;
+        let arguments = ExpressionReader::of_statement(&mut self.tokens).arguments(None)?;
         self.end("a comma or a semicolon")?;
         if let Some(name) = named {
             note(&mut self.tokens, first.start, name, false, &arguments);

@@ -2,8 +2,11 @@
 
 use super::faults::{Faults, end_statement};
 use crate::rapid::data::expression::Arguments;
+use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::MotionSettings;
+use crate::rapid::data::value::DataType;
+use crate::rapid::expression::direct::read_direct;
 use crate::rapid::expression::names::At;
 use crate::rapid::expression::reader::{ExpressionReader, note};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
@@ -35,7 +38,13 @@ pub(crate) fn read_move<'a>(
     (start, name): (usize, Token),
 ) -> Result<Option<WrittenMove<'a>>, RapidFault> {
     let (line, column) = tokens.line_and_column(start);
-    let arguments = ExpressionReader::new(tokens).arguments()?;
+    let data_type = match instruction.way {
+        MoveKind::MoveAbsJ | MoveKind::MoveExtJ => DataType::JointTarget,
+        _ => DataType::RobTarget,
+    };
+    let is_basic = instruction.is_basic();
+    let target = if is_basic { read_direct(tokens, data_type, b',') } else { None };
+    let arguments = ExpressionReader::new(tokens).arguments(target)?;
     end_statement(tokens, faults, "a comma or a semicolon")?;
     if tokens.unfinished_since(start) {
         return Ok(None);

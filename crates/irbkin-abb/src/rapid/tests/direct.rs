@@ -151,3 +151,27 @@ fn blanks_and_comments_are_anywhere_in_a_value() {
         assert_eq!(single(&module, "p"), expected, "{text:?}");
     }
 }
+
+#[test]
+fn targets_of_moves_are_read_as_their_expressions() {
+    let (mut read, mut broken) = (0, 0);
+    for (name, (_, shape)) in ["MoveL", "MoveAbsJ"].into_iter().zip(SHAPES) {
+        let usual = |part: &str| part.replace('n', "1.25").replace('w', "-1");
+        for (place, _) in shape.match_indices(['n', 'w']) {
+            for literal in LITERALS {
+                let value = usual(&shape[..place]) + literal + &usual(&shape[place + 1..]);
+                let target = |text: &str| match parse(&format!("{name} {text},v5,fine,tool0;"), &[])
+                {
+                    Ok(module) => Ok(module.moves().first().map(|it| it.target.value.clone())),
+                    Err(Error::Rapid(fault)) => Err(fault.kind),
+                    Err(other) => panic!("{other}"),
+                };
+                // In parentheses it is read as an expression.
+                let (direct, expression) = (target(&value), target(&format!("({value})")));
+                assert_eq!(format!("{direct:?}"), format!("{expression:?}"), "{name} {value}");
+                *(if direct.is_ok() { &mut read } else { &mut broken }) += 1;
+            }
+        }
+    }
+    assert!(read > 500 && broken > 500, "{read} {broken}");
+}
