@@ -14,7 +14,7 @@
 //!     unreachable!()
 //! };
 //! assert_eq!(p10.trans_mm, [600.0, 0.0, 800.0]);
-//! assert_eq!(module.moves()[0].target.text, "Offs(p10,0,0,50)");
+//! assert_eq!(&*module.moves()[0].target.text, "Offs(p10,0,0,50)");
 //! let again = rapid::parse(&module.to_string(), &[])?;
 //! assert_eq!(again.without_positions(), module.without_positions());
 //! # Ok::<(), irbkin_abb::Error>(())
