@@ -1,6 +1,5 @@
 //! All moves of a program, checked.
 
-use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 use alloc::sync::Arc;
@@ -149,7 +148,7 @@ pub fn check<const N: usize>(
         found: Vec::new(),
         demands: Vec::new(),
         moves: Vec::new(),
-        cases: BTreeSet::new(),
+        cases: Vec::new(),
     };
     for run in &runs {
         checker.add(run)?;
@@ -169,7 +168,7 @@ pub fn check<const N: usize>(
     });
     moves.dedup_by_key(|(by, it)| (place(it), *by));
     let moves = moves.into_iter().map(|(_, it)| it).collect();
-    let mut findings = sorted(found, &cases, &modules);
+    let mut findings = sorted(found, cases, &modules);
     findings.retain(|it| options.codes.is_none_or(|codes| codes.contains(&it.code)));
     Ok(Checked { findings, moves })
 }
@@ -233,7 +232,7 @@ struct Checker<'a, 'm, const N: usize> {
     demands: Vec<Demand<'a>>,
     /// The moves with the chain of calls, the module and the index of the instruction.
     moves: Vec<([usize; 3], CheckedMove<N>)>,
-    cases: BTreeSet<Case>,
+    cases: Vec<Case>,
 }
 
 impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
@@ -243,7 +242,7 @@ impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
         let options = MotionOptions { start, max_acceleration: None, ..self.options.motion };
         let (robots, units, interrupt) = (self.robots, Some(self.units), self.options.interrupt);
         let mut collisions = Vec::new();
-        let finish = |drive: &mut Drive<'_, '_, N>, index: usize| {
+        let mut finish = |drive: &mut Drive<'_, '_, N>, index: usize| {
             drive.check_speed(index, &self.max_velocity);
             if drive.made[index].as_programmed {
                 interrupt.check(0)?;
@@ -254,7 +253,7 @@ impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
             drive.samples.forget_before(index + 1);
             Ok(())
         };
-        let followed = Followed::new(robots, &run.steps, &options, units, interrupt, finish)?;
+        let followed = Followed::new(robots, &run.steps, &options, units, interrupt, &mut finish)?;
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
         for finding in unfollowed {
             self.moves.push(([0, finding.module, usize::MAX], unfollowed_move(finding)));
@@ -307,7 +306,7 @@ impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
             self.moves.push(([goal.stepped.chain, home, instruction], own));
             let call = goal.stepped.call.as_ref().map(|it| it.place);
             let (place, case) = ((module, line, column), goal.stepped.case.clone());
-            self.cases.insert((place, (home, instruction), call, case));
+            self.cases.push((place, (home, instruction), call, case));
             let mut found = |finding: Finding| {
                 let finding = resting(finding.at(goal.step, index), goals, assumed.as_ref());
                 self.found.push(finding);

@@ -15,12 +15,14 @@ pub(super) type Case = (Place, (usize, usize), Option<Place>, String);
 /// Findings in the order of the text, each once.
 pub(super) fn sorted(
     mut found: Vec<Finding>,
-    cases: &BTreeSet<Case>,
+    mut cases: Vec<Case>,
     modules: &[&Module],
 ) -> Vec<Finding> {
     // Of those that say the same, one that rests on nothing stays.
     found.sort_by_key(|it| (identity(it), it.assumed.is_some()));
-    let mut found = of_all_cases(&found, cases);
+    cases.sort_unstable();
+    cases.dedup();
+    let mut found = of_all_cases(&found, &cases);
     // Nothing is said of the way to a target that cannot be met.
     let (mut unmet, mut without_path) = (None, None);
     found.retain(|it| {
@@ -43,22 +45,26 @@ fn identity(it: &Finding) -> (Place, Code, Option<usize>, (usize, usize)) {
 }
 
 /// Findings of the cases of a move as the first of them, with the number of the others.
-fn of_all_cases(found: &[Finding], cases: &BTreeSet<Case>) -> Vec<Finding> {
+fn of_all_cases(found: &[Finding], cases: &[Case]) -> Vec<Finding> {
     let mut kept: Vec<Finding> = Vec::new();
     for all in found.chunk_by(|a, b| identity(a) == identity(b)) {
         let mut own = all[0].clone();
         let place = (own.place(), own.instruction);
-        let from = cases.range((place.0, place.1, None, String::new())..);
-        let total = from.take_while(|it| (it.0, it.1) == place).count();
+        let before = cases.partition_point(|it| (it.0, it.1) < place);
+        let total = cases[before..].iter().take_while(|it| (it.0, it.1) == place).count();
         let case = &own.case;
         if case.is_empty() && (total <= 1 || own.calls.is_empty()) {
             let mut messages = BTreeSet::new();
             kept.extend(all.iter().filter(|it| messages.insert(&it.message)).cloned());
             continue;
         }
-        let of: BTreeSet<_> = all.iter().map(|it| (it.calls.first(), &it.case)).collect();
-        let count = of.len();
-        let calls: BTreeSet<Place> = all.iter().flat_map(|it| &it.calls).copied().collect();
+        let mut own_cases: Vec<_> = all.iter().map(|it| (it.calls.first(), &it.case)).collect();
+        own_cases.sort_unstable();
+        own_cases.dedup();
+        let count = own_cases.len();
+        let mut calls: Vec<Place> = all.iter().flat_map(|it| &it.calls).copied().collect();
+        calls.sort_unstable();
+        calls.dedup();
         let is_same = total <= 1 || all.iter().all(|it| it.message == own.message);
         if count < total || !is_same {
             let which = if count > 1 { "first " } else { "" };
@@ -69,7 +75,7 @@ fn of_all_cases(found: &[Finding], cases: &BTreeSet<Case>) -> Vec<Finding> {
             };
             own.message = format!("{} ({words})", own.message);
         }
-        own.calls = calls.into_iter().collect();
+        own.calls = calls;
         kept.push(own);
     }
     kept
@@ -77,15 +83,19 @@ fn of_all_cases(found: &[Finding], cases: &BTreeSet<Case>) -> Vec<Finding> {
 
 /// Findings of one cause as the first of them, with the places and the corrections of the others.
 fn of_one_cause(found: Vec<Finding>, modules: &[&Module]) -> Vec<Finding> {
-    let mut firsts: BTreeMap<_, (usize, BTreeSet<Place>)> = BTreeMap::new();
+    let mut firsts = BTreeMap::new();
     let mut kept: Vec<Finding> = Vec::new();
     for mut finding in found {
         let cause = core::mem::take(&mut finding.cause);
         if !cause.is_empty() {
             let of = (finding.code, cause, finding.assumed.is_some());
-            let (first, others) = firsts.entry(of).or_insert((kept.len(), BTreeSet::new()));
-            if let Some(first) = kept.get_mut(*first) {
-                others.insert(finding.place());
+            let first = *firsts.entry(of).or_insert(kept.len());
+            if let Some(first) = kept.get_mut(first) {
+                // Passes of a loop are at one place.
+                let place = finding.place();
+                if *first.related.last().unwrap_or(&first.place()) != place {
+                    first.related.push(place);
+                }
                 first.edits.append(&mut finding.edits);
                 continue;
             }
@@ -95,26 +105,22 @@ fn of_one_cause(found: Vec<Finding>, modules: &[&Module]) -> Vec<Finding> {
     for finding in &mut kept {
         finding.edits.sort_by_key(|edit| (edit.module, edit.span.start));
         finding.edits.dedup();
+        let others = finding.related.len();
         let place = finding.place();
         finding.related.extend(finding.calls.iter().filter(|call| **call != place));
-        if !finding.related.is_empty() {
-            let from = places(&finding.related, finding.module, modules);
+        let calls = &finding.related[others..];
+        if !calls.is_empty() {
+            let from = places(calls, finding.module, modules);
             finding.message = format!("{} (called from {from})", finding.message);
         }
         if let Some(words) = &finding.assumed {
             finding.message = format!("{} (with {words})", finding.message);
         }
-    }
-    for (first, others) in firsts.into_values() {
-        let first = &mut kept[first];
-        // Passes of a loop are at one place.
-        let others: Vec<Place> = others.into_iter().filter(|it| *it != first.place()).collect();
-        let what = if first.calls.is_empty() { "move" } else { "call" };
-        if !others.is_empty() {
-            let ending = if others.len() == 1 { "" } else { "s" };
-            first.message = format!("{} (and {} more {what}{ending})", first.message, others.len());
+        if others > 0 {
+            let what = if finding.calls.is_empty() { "move" } else { "call" };
+            let ending = if others == 1 { "" } else { "s" };
+            finding.message = format!("{} (and {others} more {what}{ending})", finding.message);
         }
-        first.related.splice(0..0, others);
     }
     kept
 }

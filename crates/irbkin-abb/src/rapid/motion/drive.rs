@@ -102,7 +102,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         options: &MotionOptions<N>,
         findings: &'a mut Vec<Finding>,
         interrupt: Interrupt<'a>,
-        mut finish: impl FnMut(&mut Self, usize) -> Result<(), Error>,
+        finish: &mut dyn FnMut(&mut Self, usize) -> Result<(), Error>,
     ) -> Result<(Samples<N>, Vec<Made<N>>), Error> {
         let mut drive = Self {
             robot,

@@ -104,7 +104,8 @@ pub fn motion<const N: usize>(
     let program = Program::new(modules, &convert);
     let (routine, steps) = sequence(&program, routine)?;
     let none = Interrupt::none();
-    let followed = Followed::new([robot, &flange], &steps, options, None, none, |_, _| Ok(()))?;
+    let followed =
+        Followed::new([robot, &flange], &steps, options, None, none, &mut |_, _| Ok(()))?;
     let Followed { goals, samples, made, mut findings, unfollowed } = followed;
     findings.extend(unfollowed);
     if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
@@ -151,7 +152,7 @@ impl<'m, const N: usize> Followed<'m, N> {
         options: &MotionOptions<N>,
         units: Option<&Units>,
         interrupt: Interrupt<'_>,
-        finish: impl FnMut(&mut Drive<'_, 'm, N>, usize) -> Result<(), Error>,
+        finish: &mut dyn FnMut(&mut Drive<'_, 'm, N>, usize) -> Result<(), Error>,
     ) -> Result<Self, Error> {
         let (mut findings, mut unfollowed) = (Vec::new(), Vec::new());
         let goals = goals(robots[0], steps, units, [&mut findings, &mut unfollowed]);
