@@ -137,7 +137,7 @@ impl Instruction {
     }
 
     /// What it assigns, if it counts.
-    pub(crate) fn counted(&self) -> Option<Assignment> {
+    pub(crate) fn as_assignment(&self) -> Option<Assignment> {
         let mut arguments = self.arguments.required.iter();
         let target = arguments.next()?.clone();
         let one = Expression { form: Form::Number(1.0), ..target };

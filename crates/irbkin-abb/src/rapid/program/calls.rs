@@ -88,8 +88,8 @@ impl Calls for Walk<'_, '_> {
         walk.questions.set(self.questions.get());
         walk.steps_left = self.steps_left.saturating_sub(self.inside.get());
         let left = walk.steps_left;
-        let (written, parameters) = ((text, 0, &Rc::default()), program.parameters(home, &name));
-        let bound = walk.bound(written, parameters, &call.arguments);
+        let parameters = program.parameters(home, &name);
+        let bound = walk.bound((text, 0, &Rc::default()), parameters, &call.arguments);
         walk.state.locals = program.locals_of(home, &name, Some(bound.given));
         walk.frame = Frame {
             result: Some(data_type),
@@ -118,12 +118,12 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Follow an instruction that may be a call.
-    pub(super) fn call(&mut self, skipped: &'m Statement, instruction: &Instruction) {
+    pub(super) fn call(&mut self, statement: &'m Statement, instruction: &Instruction) {
         let Some(name) = instruction.name.clone() else {
             // It may assign any datum.
             self.state.forget_globals(None);
             let words = "the name of the routine is calculated".to_string();
-            return self.not_followed(skipped, words);
+            return self.not_followed(statement, words);
         };
         let program = self.program;
         let Some(home) = program.procedure(self.frame.module, &name) else { return };
@@ -146,20 +146,20 @@ impl<'m> Walk<'_, 'm> {
             self.state.forget_globals(assigned.as_ref());
             self.state.place = Err("a call before it is not followed");
             if acts.moves {
-                self.not_followed(skipped, words);
+                self.not_followed(statement, words);
             }
             return;
         }
         let site = Rc::new(Site {
-            place: (self.frame.module, skipped.line, skipped.column),
-            routine: skipped.routine.as_deref().map(String::from),
-            called: skipped.kind.word().to_string(),
+            place: (self.frame.module, statement.line, statement.column),
+            routine: statement.routine.as_deref().map(String::from),
+            called: statement.kind.word().to_string(),
         });
-        let written = (skipped.text.as_str(), skipped.start, &site);
+        let written = (statement.text.as_str(), statement.start, &site);
         let bound = self.bound(written, parameters, &instruction.arguments);
         let first = self.frame.site.clone().unwrap_or(site);
         let site = Some(first).filter(|_| !parameters.is_empty());
-        self.enter((skipped.start, site), (home, name), bound);
+        self.enter((statement.start, site), (home, name), bound);
     }
 
     /// Follow a routine with its arguments.
@@ -204,11 +204,11 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Keep what a function returns.
-    pub(super) fn give_back(&mut self, skipped: &Statement, instruction: &Instruction) {
+    pub(super) fn give_back(&mut self, statement: &Statement, instruction: &Instruction) {
         let Some(data_type) = self.frame.result else { return };
         let Some(value) = instruction.arguments.required.first() else { return };
-        let ways = self.in_each_case(|it| it.value(&skipped.text, value, data_type).ok());
-        let written = skipped.text.get(value.start..value.end).unwrap_or_default();
+        let ways = self.in_each_case(|it| it.value(&statement.text, value, data_type).ok());
+        let written = statement.text.get(value.start..value.end).unwrap_or_default();
         let words = format!("{} is {written}", self.frame.routine);
         let known = Known::of_ways(ways, |value| value.map(Content::Single), &words);
         let content = known.ok_or(Unresolved::ValueNotKnown);

@@ -150,7 +150,7 @@ impl Scope<'_, '_> {
             step.time = None;
         } else {
             let text = text.trim_start_matches('?');
-            let time = argument(text).and_then(|it| self.evaluated(text, &it));
+            let time = argument(text).and_then(|it| self.evaluate(text, &it));
             step.time = Some(Box::new(time));
         }
     }
@@ -209,7 +209,7 @@ impl Scope<'_, '_> {
         statement: &Statement,
         argument: Option<&Expression<'_>>,
     ) -> Option<T> {
-        self.evaluated(&statement.text, argument?).ok()
+        self.evaluate(&statement.text, argument?).ok()
     }
 
     /// Where the robot is, in a tool and a work object.

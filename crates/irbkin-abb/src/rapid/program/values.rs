@@ -234,7 +234,7 @@ impl<'s> Scope<'s, '_> {
     }
 
     pub(super) fn record<T: Record>(&self, text: &str) -> Result<T, Reason> {
-        self.evaluated(text, &argument(text)?)
+        self.evaluate(text, &argument(text)?)
     }
 
     /// The value of an expression of a statement, of a type.
@@ -248,7 +248,7 @@ impl<'s> Scope<'s, '_> {
     }
 
     /// The record or the number that an expression of a statement is.
-    pub(super) fn evaluated<T: Record>(
+    pub(super) fn evaluate<T: Record>(
         &self,
         text: &str,
         expression: &Expression<'_>,
@@ -264,7 +264,7 @@ impl<'s> Scope<'s, '_> {
     ) -> Vec<usize> {
         let mut open = Vec::new();
         for (index, part) in parts.iter().enumerate() {
-            let holds = self.holds(tested, (&part.head.text, part.condition));
+            let holds = self.holds(tested, &part.head.text, part.condition);
             if holds != Some(false) {
                 open.push(index);
             }
@@ -280,7 +280,8 @@ impl<'s> Scope<'s, '_> {
     pub(super) fn holds(
         &self,
         tested: Option<(&str, &Expression<'_>)>,
-        (text, condition): (&str, &Condition),
+        text: &str,
+        condition: &Condition,
     ) -> Option<bool> {
         match condition {
             Condition::Always => Some(true),
@@ -290,13 +291,13 @@ impl<'s> Scope<'s, '_> {
                 (is_there || self.frame.absent.contains(name)).then_some(is_there == *is_wanted)
             }
             Condition::Compared(numbers, relation) => {
-                let operands = numbers.each_ref().map(|it| self.certain_number((text, it)));
-                let [left, right] = operands;
+                let [left, right] = numbers.each_ref().map(|it| self.certain_number(text, it));
                 Some(relation.holds(left?, right?))
             }
             Condition::Case(numbers) => {
-                let own = self.certain_number(tested?)?;
-                let numbers = numbers.iter().map(|it| self.certain_number((text, it)));
+                let (head, own) = tested?;
+                let own = self.certain_number(head, own)?;
+                let numbers = numbers.iter().map(|it| self.certain_number(text, it));
                 let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
                 Some(numbers.iter().any(|number| number.total_cmp(&own).is_eq()))
             }
@@ -306,7 +307,7 @@ impl<'s> Scope<'s, '_> {
 
     /// The number that an expression is here, unless a declared value counts that may be another
     /// one when the program starts.
-    fn certain_number(&self, (text, expression): (&str, &Expression<'_>)) -> Option<f64> {
+    fn certain_number(&self, text: &str, expression: &Expression<'_>) -> Option<f64> {
         let mut names = Vec::new();
         expression.collect_names(&mut names);
         let is_certain = |name: &Name<'_>| {
@@ -323,7 +324,7 @@ impl<'s> Scope<'s, '_> {
         if !names.iter().all(is_certain) {
             return None;
         }
-        self.evaluated(text, expression).ok().filter(|_| !self.choices.is_assumed())
+        self.evaluate(text, expression).ok().filter(|_| !self.choices.is_assumed())
     }
 
     /// Whether what the declarations say of a text may not hold: it is passed to a routine that
@@ -376,7 +377,7 @@ impl<'s> Scope<'s, '_> {
             Content::Array { sizes, values } if sizes.len() == indices.len() => {
                 let mut element = 0;
                 for (index, size) in indices.iter().zip(sizes.iter()) {
-                    let index = positive_whole(self.evaluated(text, index).ok()?);
+                    let index = positive_whole(self.evaluate(text, index).ok()?);
                     element = element * size + index.filter(|index| index <= size)? - 1;
                 }
                 values.get_mut(element)?

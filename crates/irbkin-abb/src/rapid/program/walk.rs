@@ -3,7 +3,7 @@
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::{String, ToString};
@@ -148,22 +148,16 @@ impl<'m> Walk<'_, 'm> {
     ) {
         let tested = tested.map(|it| (&*head.text, it));
         let ways = self.in_each_case(|scope| scope.open(tested, parts));
-        let mut open: BTreeMap<usize, Vec<Case>> = BTreeMap::new();
-        for way in &ways {
-            for part in &way.value {
-                open.entry(*part).or_default().push(way.case.clone());
-            }
-        }
-        for (index, part) in parts.iter().enumerate() {
+        let is_open = |part: usize| ways.iter().any(|way| way.value.contains(&part));
+        let (open, closed): (Vec<_>, Vec<_>) = (0..=parts.len()).partition(|part| is_open(*part));
+        for part in closed.iter().filter_map(|index| parts.get(*index)) {
             match part.condition {
-                _ if open.contains_key(&index) => {}
                 Condition::Never => self.never_run(part.head, &part.block),
                 _ => self.left_out(&part.block),
             }
         }
-        if open.len() == 1 {
-            let only = open.keys().find_map(|index| parts.get(*index));
-            return only.map_or((), |part| self.block(&part.block));
+        if let [only] = open.as_slice() {
+            return parts.get(*only).map_or((), |part| self.block(&part.block));
         }
         let texts = parts.iter().map(|part| part.head.text.as_str());
         let text = core::iter::once(head.text.as_str()).chain(texts).collect::<Vec<_>>().join(" ");
@@ -171,12 +165,14 @@ impl<'m> Walk<'_, 'm> {
         let (question, is_new) = if are_same { self.ask(&text) } else { (self.question(), true) };
         let entry = self.state.clone();
         let mut ends = Vec::new();
-        for (answer, mut cases) in open {
-            if !is_new {
-                cases = Vec::from([Case::of(question, answer)]);
-            }
+        for answer in open {
             self.state = entry.clone();
-            self.state.assume(&cases);
+            if is_new {
+                let ways = ways.iter().filter(|way| way.value.contains(&answer));
+                self.state.assume(&ways.map(|way| way.case.clone()).collect::<Vec<_>>());
+            } else {
+                self.state.assume(&[Case::of(question, answer)]);
+            }
             if let Some(part) = parts.get(answer) {
                 self.block(&part.block);
             }
@@ -189,7 +185,7 @@ impl<'m> Walk<'_, 'm> {
 
     /// Whether the condition of a loop holds here, whatever the case.
     pub(super) fn holds(&mut self, head: &Statement, condition: &Condition) -> Option<bool> {
-        let holds = self.in_all_cases(|scope| scope.holds(None, (&head.text, condition)));
+        let holds = self.in_all_cases(|scope| scope.holds(None, &head.text, condition));
         holds.map(|(holds, _)| holds)
     }
 
@@ -318,10 +314,10 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Something that is no move and no branch.
-    fn statement(&mut self, skipped: &'m Statement) {
-        match &skipped.kind {
+    fn statement(&mut self, statement: &'m Statement) {
+        match &statement.kind {
             StatementKind::Unfinished { .. } | StatementKind::Invalid { .. } => {
-                self.not_followed(skipped, skipped.kind.to_string());
+                self.not_followed(statement, statement.kind.to_string());
             }
             StatementKind::Label { .. } => {
                 if let Some(body) = self.program.body(self.frame.module, &self.frame.routine) {
@@ -329,18 +325,18 @@ impl<'m> Walk<'_, 'm> {
                 }
                 self.state.here = Here::Unknown;
             }
-            StatementKind::Assignment(own) => self.assign(skipped, own),
-            StatementKind::Instruction(instruction) => self.instruct(skipped, instruction),
+            StatementKind::Assignment(own) => self.assign(statement, own),
+            StatementKind::Instruction(instruction) => self.instruct(statement, instruction),
             _ => {}
         }
     }
 
-    fn assign(&mut self, skipped: &'m Statement, own: &Assignment) {
-        let ways = self.in_each_case(|it| it.assigned(&skipped.text, own));
+    fn assign(&mut self, statement: &'m Statement, own: &Assignment) {
+        let ways = self.in_each_case(|it| it.assigned(&statement.text, own));
         if ways.iter().any(|way| way.value.is_none()) {
-            self.note_out_of_reach(skipped, &own.value);
+            self.note_out_of_reach(statement, &own.value);
         }
-        let text = skipped.text.trim_end_matches(';');
+        let text = statement.text.trim_end_matches(';');
         let words = match text.split_once(":=") {
             Some((to, value)) => format!("{} is {}", to.trim(), value.trim()),
             None => format!("{} is counted by {text}", own.name),
@@ -349,21 +345,21 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Report a calculated target that the robot does not reach.
-    fn note_out_of_reach(&mut self, skipped: &'m Statement, value: &Expression<'_>) {
+    fn note_out_of_reach(&mut self, statement: &'m Statement, value: &Expression<'_>) {
         let scope = self.scope();
-        let certain = || scope.value(&skipped.text, value, DataType::JointTarget);
+        let certain = || scope.value(&statement.text, value, DataType::JointTarget);
         if let Err(reason @ Reason::Robot { .. }) = scope.choices.without(certain) {
             let found = Finding::unknown(Code::UnknownTarget, &reason, reason.to_string());
-            self.notes.push(found.in_module(self.frame.module).at_statement(skipped, 0));
+            self.notes.push(found.in_module(self.frame.module).at_statement(statement, 0));
         }
     }
 
-    fn instruct(&mut self, skipped: &'m Statement, instruction: &Instruction) {
+    fn instruct(&mut self, statement: &'m Statement, instruction: &Instruction) {
         if releases(self.program, self.frame.module, instruction) {
             self.state.place = Err("the robot may be moved by hand or by a call before it");
         }
-        if let Some(own) = instruction.counted() {
-            self.assign(skipped, &own);
+        if let Some(own) = instruction.as_assignment() {
+            self.assign(statement, &own);
         } else if let Some((name, _)) = &instruction.written {
             self.put(name, None);
         }
@@ -372,37 +368,37 @@ impl<'m> Walk<'_, 'm> {
                 let name = instruction.name.as_deref();
                 let home = name.and_then(|name| self.program.procedure(self.frame.module, name));
                 match home {
-                    Some(_) => self.call(skipped, instruction),
-                    None => self.not_followed(skipped, skipped.kind.to_string()),
+                    Some(_) => self.call(statement, instruction),
+                    None => self.not_followed(statement, statement.kind.to_string()),
                 }
             }
             Effect::Returns => {
-                self.give_back(skipped, instruction);
+                self.give_back(statement, instruction);
                 self.frame.exits.push(self.state.clone());
                 self.state.here = Here::Left;
             }
             Effect::Leaves => self.state.here = Here::Left,
             Effect::Jumps => {
-                self.decides(skipped.line, "GOTO");
+                self.decides(statement.line, "GOTO");
                 self.state.here = Here::Left;
             }
             Effect::Displaces(shift) => {
                 let known =
-                    self.in_all_cases(|it| Some(it.displacement(skipped, instruction, shift)));
-                let unknown = (Displacement::Unknown(skipped.line), None);
+                    self.in_all_cases(|it| Some(it.displacement(statement, instruction, shift)));
+                let unknown = (Displacement::Unknown(statement.line), None);
                 (self.state.displacement, self.state.assumed_shift) = known.unwrap_or(unknown);
             }
             Effect::Offsets(shift) => {
-                let known = self.in_all_cases(|it| Some(it.offsets(skipped, instruction, shift)));
-                let unknown = (Err(skipped.line), None);
+                let known = self.in_all_cases(|it| Some(it.offsets(statement, instruction, shift)));
+                let unknown = (Err(statement.line), None);
                 (self.state.offsets, self.state.assumed_shift) = known.unwrap_or(unknown);
             }
-            Effect::Sets => self.not_followed(skipped, skipped.kind.to_string()),
+            Effect::Sets => self.not_followed(statement, statement.kind.to_string()),
             Effect::Stops if self.is_one => self.state.here = Here::Left,
             Effect::Waits | Effect::Stops => {
-                self.halt(&format!("{} on line {}", skipped.kind.word(), skipped.line));
+                self.halt(&format!("{} on line {}", statement.kind.word(), statement.line));
             }
-            Effect::Nothing => self.call(skipped, instruction),
+            Effect::Nothing => self.call(statement, instruction),
         }
     }
 }

@@ -306,8 +306,7 @@ impl<'p, 'm> Walk<'p, 'm> {
 
     /// The number that an expression is in all cases, unless it rests on what is not determined.
     pub(super) fn number(&mut self, text: &str, expression: &Expression<'_>) -> Option<f64> {
-        let (number, assumed) =
-            self.in_all_cases(|scope| scope.evaluated(text, expression).ok())?;
+        let (number, assumed) = self.in_all_cases(|scope| scope.evaluate(text, expression).ok())?;
         assumed.is_none().then_some(number)
     }
 
