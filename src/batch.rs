@@ -7,7 +7,6 @@ mod forward;
 mod inverse;
 mod margins;
 mod pace;
-mod paths;
 #[cfg(feature = "std")]
 mod poses;
 pub(crate) mod rows;

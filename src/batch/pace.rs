@@ -9,9 +9,13 @@ use std::time::Duration;
 
 use core::num::NonZeroUsize;
 
+use alloc::vec::Vec;
+
 #[cfg(feature = "std")]
 use super::threads::Helpers;
+use crate::error::Error;
 use crate::interrupt::Interrupt;
+use crate::kinematics::{Followed, Pose};
 
 /// How often the caller is asked while it waits for other threads.
 #[cfg(feature = "std")]
@@ -80,6 +84,26 @@ impl Batch<'_> {
                 return;
             }
         }
+    }
+
+    /// `follow` of paths of `length` poses each, one behind the other, from a seed each.
+    #[doc(hidden)]
+    pub fn follow<const N: usize>(
+        &mut self,
+        poses: &[Pose],
+        length: usize,
+        seeds: &[[f64; N]],
+        follow: impl Fn(&[Pose], &[f64; N], Interrupt<'_>) -> Result<Followed<N>, Error> + Sync,
+    ) -> Result<Vec<Followed<N>>, Error> {
+        let mut answers: Vec<_> = seeds.iter().map(|_| None).collect();
+        // One path is one part.
+        let rows = if seeds.len() > 1 { poses.len() } else { 0 };
+        let parts = seeds.iter().zip(&mut answers).enumerate();
+        self.run(rows, parts, |(number, (seed, answer)), interrupt| {
+            let path = &poses[number * length..(number + 1) * length];
+            *answer = Some(follow(path, seed, interrupt));
+        });
+        answers.into_iter().flatten().collect()
     }
 
     /// Each thread takes the next part as long as there is one.

@@ -49,7 +49,6 @@ impl Helpers {
         Some(Self { process: process::id(), pool })
     }
 
-    /// How many there are.
     pub(super) fn count(&self) -> usize {
         self.pool.current_num_threads()
     }

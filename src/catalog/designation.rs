@@ -11,7 +11,6 @@ use crate::catalog::fault::LeftOut;
 /// Words of a designation that do not change the kinematics: Foundry, the hose package of a LeanID.
 const WITHOUT_KINEMATICS: [&str; 3] = ["F", "MH6", "TYPE"];
 
-/// The parts of a designation.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Designation {
     /// "IRB" or "CRB", if it is given.
@@ -195,7 +194,6 @@ fn designated() -> impl Iterator<Item = (Row, Designation)> {
     of_abb.filter_map(|row| Some((row, Designation::of(row.name)?)))
 }
 
-/// The arm with this designation.
 pub(super) fn arm_of(wanted: &Designation) -> Option<Row> {
     designated().find(|(_, arm)| wanted.is_of(arm)).map(|(row, _)| row)
 }

@@ -2,7 +2,6 @@
 
 #[cfg(feature = "std")]
 mod alike;
-mod confdata;
 mod designation;
 pub(crate) mod fault;
 mod left_out;
@@ -17,10 +16,14 @@ use crate::error::{Error, ModelFault};
 use crate::kinematics::{
     AnyRobot, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
 };
+use crate::report::ConfigurationRule;
 
 pub use fault::{LeftOut, UnknownRobot};
 pub use left_out::left_out;
 pub use names::find;
+
+/// Type names of the GoFa family, with the part before the payload.
+const GOFA: &str = "CRB 15000-";
 
 /// One arm of the catalog, with the numbers as printed by its maker.
 #[derive(Clone, Debug)]
@@ -203,6 +206,24 @@ impl CatalogArm {
     pub fn aliases(&self) -> impl Iterator<Item = &'static str> {
         names::aliases(self.name)
     }
+
+    /// How the controller of the arm counts configurations, if in a way of its own
+    /// (docs/guide/abb.md). This is known of the arm, not of its structure: other makers' arms with
+    /// the same axes have no confdata.
+    #[must_use]
+    pub fn own_configuration_rule(&self) -> Option<ConfigurationRule> {
+        match self.name {
+            "IRB 14000-0.5/0.5 (left)" => Some(outward(-1.0)),
+            "IRB 14000-0.5/0.5 (right)" | "IRB 14050-0.5/0.5" => Some(outward(1.0)),
+            name if name.starts_with(GOFA) => Some(ConfigurationRule::OffsetWrist),
+            _ => None,
+        }
+    }
+}
+
+/// Where an arm of a YuMi counts its arm angle from, in the frame of the body: its outer side.
+const fn outward(y: f64) -> ConfigurationRule {
+    ConfigurationRule::ArmAngle { reference: [0.0, y, 0.0] }
 }
 
 impl AnyRobot {
@@ -250,14 +271,9 @@ where
     pub fn from_catalog(arm: &CatalogArm) -> Result<Self, Error> {
         let wrong_count = || Error::from(ModelFault::JointCount { found: arm.dof(), wanted: N });
         let limits = <[[f64; 2]; N]>::try_from(&arm.limits[..]).map_err(|_| wrong_count())?;
-        let velocity = match &arm.max_velocity {
-            Some(velocity) => Some(
-                <[f64; N]>::try_from(&velocity[..])
-                    .map_err(|_| wrong_count())?
-                    .map(|v| arm.angles.to_radians(v)),
-            ),
-            None => None,
-        };
+        let velocity = arm.max_velocity.as_ref().map(|all| <[f64; N]>::try_from(&all[..]));
+        let velocity = velocity.transpose().map_err(|_| wrong_count())?;
+        let velocity = velocity.map(|all| all.map(|rate| arm.angles.to_radians(rate)));
         let robot = match arm.geometry {
             CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, linkage } => {
                 let [a1, a2, c1, c2, c3, c4] = [a1, a2, c1, c2, c3, c4].map(|mm| mm / 1e3);
@@ -266,17 +282,14 @@ where
             }
             CatalogGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
                 let rows = [
-                    (90.0, 0.0, d1),
-                    (0.0, a2, 0.0),
-                    (0.0, a3, 0.0),
-                    (90.0, 0.0, d4),
-                    (-90.0, 0.0, d5),
-                    (0.0, 0.0, d6),
+                    [90.0, 0.0, d1, 0.0],
+                    [0.0, a2, 0.0, 0.0],
+                    [0.0, a3, 0.0, 0.0],
+                    [90.0, 0.0, d4, 0.0],
+                    [-90.0, 0.0, d5, 0.0],
+                    [0.0, 0.0, d6, 0.0],
                 ];
-                let rows = rows.map(|(alpha, a, d): (f64, f64, f64)| {
-                    DhRow::new(alpha.to_radians(), a / 1e3, d / 1e3, 0.0)
-                });
-                let rows = <[DhRow; N]>::try_from(&rows[..]).map_err(|_| wrong_count())?;
+                let rows = table(&rows).ok_or_else(wrong_count)?;
                 Self::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
             CatalogGeometry::Crx { d1, a2, d4, d5, d6 } => {

@@ -37,7 +37,6 @@ const ALIASES: &[(&str, &str)] = &[
     ("UFACTORY xArm 6", "xArm6"),
 ];
 
-/// The other names of the arm with this name.
 pub(super) fn aliases(name: &'static str) -> impl Iterator<Item = &'static str> {
     ALIASES.iter().filter(move |(_, of)| *of == name).map(|(alias, _)| *alias)
 }
@@ -79,23 +78,16 @@ pub fn find(name: &str) -> Result<CatalogArm, Error> {
     let designated = || designation.as_ref().and_then(designation::arm_of);
     rows().find(is_meant).or_else(designated).and_then(Row::arm).ok_or_else(|| {
         let left_out = left_out::meant(name).or_else(|| designation::left_out(name));
-        let close = match &designation {
-            _ if left_out.is_some() => Vec::new(),
-            Some(designation) => close_or(designation, || close_to(&wanted)),
-            None => close_to(&wanted),
-        };
+        let mut close = Vec::new();
+        if left_out.is_none() {
+            let of_series = designation.iter().flat_map(designation::close_to);
+            close.extend(of_series.take(MOST_CLOSE));
+            if close.is_empty() {
+                close = close_to(&wanted);
+            }
+        }
         Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close, left_out })
     })
-}
-
-/// Names of the series of a designation; if there are none, others.
-fn close_or(
-    designation: &Designation,
-    others: impl FnOnce() -> Vec<&'static str>,
-) -> Vec<&'static str> {
-    let mut close = designation::close_to(designation);
-    close.truncate(MOST_CLOSE);
-    if close.is_empty() { others() } else { close }
 }
 
 /// A name without the characters that do not matter.

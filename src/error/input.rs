@@ -1,6 +1,7 @@
 //! Poses and joint vectors that are refused.
 
-use core::fmt;
+use alloc::format;
+use alloc::string::String;
 
 use thiserror::Error;
 
@@ -86,7 +87,7 @@ pub enum JointFault {
     NotOfPose { off: f64, bound: f64 },
     #[error("zone is {value}, it must be 0 to 1: a bound of |sin q5|")]
     Zone { value: f64 },
-    #[error("configuration: {field} is {value}, it must be {}", Numbers(*.bounds))]
+    #[error("configuration: {field} is {value}, it must be {}", numbers(*.bounds))]
     Configuration { field: &'static str, value: i32, bounds: [i32; 2] },
     #[error("given: there is no joint {joint}, it must be 1 to {dof}")]
     NoJoint { joint: usize, dof: usize },
@@ -102,13 +103,9 @@ pub enum JointFault {
 }
 
 /// The range of an element of a configuration.
-struct Numbers([i32; 2]);
-
-impl fmt::Display for Numbers {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            [0, 0] => f.write_str("0 for a robot with coupled axes 2 and 3"),
-            [least, most] => write!(f, "{least} to {most}"),
-        }
+fn numbers([least, most]: [i32; 2]) -> String {
+    match [least, most] {
+        [0, 0] => "0 for a robot with coupled axes 2 and 3".into(),
+        _ => format!("{least} to {most}"),
     }
 }

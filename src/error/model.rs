@@ -1,13 +1,13 @@
 //! Models of arms that are refused, and questions that an arm cannot answer.
 
 use core::f64::consts::TAU;
-use core::fmt;
 
+use alloc::format;
 use alloc::string::String;
 
 use thiserror::Error;
 
-use crate::report::{Snap, UnknownStructure};
+use crate::report::UnknownStructure;
 
 /// Why the model of an arm is refused, or a question to it. Lengths in meters, angles in radians;
 /// joints, axes and rows count from 1, an `index` of 0 is a parameter by itself.
@@ -15,11 +15,11 @@ use crate::report::{Snap, UnknownStructure};
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ModelFault {
-    #[error("{field}{} is {value}, it must be finite", Nth(*.index))]
+    #[error("{field}{} is {value}, it must be finite", nth(*.index))]
     NotFinite { field: &'static str, index: usize, value: f64 },
     #[error("{field} is {value} m, it must be at least {bound:e} m")]
     TooShort { field: &'static str, value: f64, bound: f64 },
-    #[error("{field}{} is {value:e}, its size must be at most {bound:e}", Nth(*.index))]
+    #[error("{field}{} is {value:e}, its size must be at most {bound:e}", nth(*.index))]
     TooLarge { field: &'static str, index: usize, value: f64, bound: f64 },
     /// A multiple of 15 beyond two turns, taken as radians.
     #[error(
@@ -42,7 +42,7 @@ pub enum ModelFault {
     /// `none`: infinity or minus infinity.
     #[error(
         "{field}{} is {value}, it must {} ({none} is allowed: no limit)",
-        Nth(*.index), if .value.is_nan() { "not be NaN" } else { "be finite" }
+        nth(*.index), if .value.is_nan() { "not be NaN" } else { "be finite" }
     )]
     NoLimit { field: &'static str, index: usize, value: f64, none: f64 },
     #[error("snap is {value} rad, it must be 0 to {bound:e} rad")]
@@ -76,7 +76,9 @@ pub enum ModelFault {
         } else {
             ""
         },
-        ByRounding(.snap)
+        .snap.map_or_else(String::new, |snap| format!(
+            "; its angles are rounded, snap={snap:e} gives it a closed form"
+        ))
     )]
     NoConfiguration {
         structure: &'static str,
@@ -98,7 +100,7 @@ pub enum ModelFault {
     #[error(
         "axes {} and {} are {off:.1e} rad off parallel, their common normal is {distance:.1e} m \
          away, it must be at most {bound:.0e} m{}",
-        .axes.0, .axes.1, Digits(*.snap)
+        .axes.0, .axes.1, digits(*.snap)
     )]
     NearlyParallel { axes: (usize, usize), off: f64, distance: f64, bound: f64, snap: Option<f64> },
     #[error(
@@ -149,36 +151,16 @@ impl ModelFault {
 }
 
 /// The number of a joint or a row after the name of a field, nothing for 0.
-struct Nth(usize);
-
-impl fmt::Display for Nth {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            0 => Ok(()),
-            index => write!(f, " {index}"),
-        }
-    }
+fn nth(index: usize) -> String {
+    if index == 0 { String::new() } else { format!(" {index}") }
 }
 
 /// The cure of angles with few digits.
-struct Digits(Option<f64>);
-
-impl fmt::Display for Digits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(snap) => Snap(snap).fmt(f),
-            None => f.write_str(" (are the angles written with all their digits?)"),
+fn digits(snap: Option<f64>) -> String {
+    match snap {
+        Some(snap) => {
+            format!(" (write the angles with all their digits); snap={snap:e} would take it")
         }
-    }
-}
-
-/// The `snap` that would help an arm of rounded angles.
-struct ByRounding<'a>(&'a Option<f64>);
-
-impl fmt::Display for ByRounding<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |snap| {
-            write!(f, "; its angles are rounded, snap={snap:e} gives it a closed form")
-        })
+        None => " (are the angles written with all their digits?)".into(),
     }
 }

@@ -22,9 +22,10 @@ pub use chain::dh::{DhRow, Mdh, Sdh, check_snap, screw_x};
 pub use chain::jacobian::JacobianFrame;
 pub use chain::joint_axes::{JointAxis, unit};
 pub use chain::limits::{JointLimits, at_limit};
-pub use path::follow::{Break, BreakReason, Followed, Follower, Progress};
+pub use path::follow::{
+    Break, BreakReason, Followed, Follower, Progress, largest, largest_step, steps,
+};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
-pub use path::step::{largest, largest_step, steps};
 pub use pose::angles::{angle_between, constant_sin_cos, nearest_turn, rotation_vector, snapped};
 pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};
 pub use pose::{

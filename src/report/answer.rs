@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+use alloc::format;
+use alloc::string::String;
+
 use thiserror::Error;
 
 /// Whether the wrist center reaches the pose.
@@ -60,7 +63,7 @@ pub struct Approach {
 #[non_exhaustive]
 pub enum Explanation {
     /// Solutions inside the limits exist.
-    #[error("{}", SolutionCount(*.solutions, *.inside))]
+    #[error("{}", counted(*.solutions, *.inside))]
     Found {
         /// All solutions.
         solutions: usize,
@@ -94,7 +97,7 @@ pub enum Explanation {
         excess: f64,
     },
     /// The wrist center does not reach the pose.
-    #[error("{}", OutOfReach(*.0))]
+    #[error("{}", out_of_reach(*.0))]
     OutOfReach(
         /// On which side, and by how much.
         Reach,
@@ -110,7 +113,8 @@ pub enum Explanation {
     /// An arm without a closed form has no solution.
     #[error(
         "{}{}",
-        if *.certified { NO_ROOTS } else { NOT_CERTAIN }, Nearest(*.approach)
+        if *.certified { NO_ROOTS } else { NOT_CERTAIN },
+        .approach.map_or_else(String::new, nearest)
     )]
     NoRoots {
         /// Whether that is certain.
@@ -135,45 +139,31 @@ const NO_ROOTS: &str = "out of reach: no closed form; 0 real roots";
 const NOT_CERTAIN: &str = "no solution found, which is not certain: no closed form";
 
 /// How many solutions there are, and how many of them inside the limits.
-struct SolutionCount(usize, usize);
-
-impl fmt::Display for SolutionCount {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self(1, 1) => f.write_str("1 solution, inside limits"),
-            Self(solutions, inside) => write!(f, "{solutions} solutions, {inside} inside limits"),
-        }
+fn counted(solutions: usize, inside: usize) -> String {
+    match (solutions, inside) {
+        (1, 1) => "1 solution, inside limits".into(),
+        _ => format!("{solutions} solutions, {inside} inside limits"),
     }
 }
 
 /// The end of a sentence: how near the arm gets.
-struct Nearest(Option<Approach>);
-
-impl fmt::Display for Nearest {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |Approach { position, rotation }| {
-            let degrees = rotation.to_degrees();
-            write!(f, "; nearest approach {} and {degrees:.1} deg", Millimeters(position))
-        })
-    }
+fn nearest(Approach { position, rotation }: Approach) -> String {
+    format!("; nearest approach {} and {:.1} deg", millimeters(position), rotation.to_degrees())
 }
 
 /// The reason of an empty answer.
-struct OutOfReach(Reach);
-
-impl fmt::Display for OutOfReach {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shortfall = self.0.shortfall();
-        let by = Millimeters(shortfall);
-        match self.0 {
-            Reach::NoRoots => f.write_str(NO_ROOTS),
-            Reach::TooNear { .. } => write!(f, "wrist center {by} too near to be reached"),
-            _ if shortfall > FAR_BEYOND => write!(
-                f,
+fn out_of_reach(reach: Reach) -> String {
+    let shortfall = reach.shortfall();
+    let by = millimeters(shortfall);
+    match reach {
+        Reach::NoRoots => NO_ROOTS.into(),
+        Reach::TooNear { .. } => format!("wrist center {by} too near to be reached"),
+        _ if shortfall > FAR_BEYOND => {
+            format!(
                 "wrist center {by} beyond reach (is the pose in millimeters? meters are wanted)"
-            ),
-            _ => write!(f, "wrist center {by} beyond reach"),
+            )
         }
+        _ => format!("wrist center {by} beyond reach"),
     }
 }
 
@@ -182,13 +172,9 @@ impl fmt::Display for OutOfReach {
 const FAR_BEYOND: f64 = 20.0;
 
 /// A length in mm, with a decimal from 0.1 mm on and in scientific notation below.
-struct Millimeters(f64);
-
-impl fmt::Display for Millimeters {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mm = self.0 * 1e3;
-        if mm >= 0.1 { write!(f, "{mm:.1} mm") } else { write!(f, "{mm:.1e} mm") }
-    }
+fn millimeters(length: f64) -> String {
+    let mm = length * 1e3;
+    if mm >= 0.1 { format!("{mm:.1} mm") } else { format!("{mm:.1e} mm") }
 }
 
 /// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the branch of the

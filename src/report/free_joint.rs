@@ -90,7 +90,6 @@ impl FreeJoint {
         Self::LastSum,
     ];
 
-    /// All of them.
     #[cfg(test)]
     pub(crate) fn all() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().chain((1..1 << JOINTS).map(|moving| Self::Chain { moving }))

@@ -4,6 +4,9 @@
 use core::f64::consts::FRAC_PI_2;
 use core::fmt;
 
+use alloc::format;
+use alloc::string::String;
+
 use thiserror::Error;
 
 /// How two axes of a known structure lie to one another.
@@ -31,7 +34,6 @@ pub(crate) const MOST_CONDITIONS: usize = 10;
 /// The conditions of a kinematic structure.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Pattern {
-    /// Name of the structure.
     pub(crate) name: &'static str,
     /// The name in a sentence: "for {title}, axes ..".
     pub(crate) title: &'static str,
@@ -109,11 +111,6 @@ enum Hint {
     Reading { order: u8, other: Option<Convention>, structure: &'static str },
 }
 
-/// A `snap` [rad].
-#[derive(Clone, Copy, Debug, Error)]
-#[error(" (write the angles with all their digits); snap={0:e} would take it")]
-pub(crate) struct Snap(pub(crate) f64);
-
 /// A Denavit-Hartenberg convention.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
@@ -144,7 +141,6 @@ pub(crate) struct Reading {
     pub(crate) order: u8,
     /// The convention, if it is not the one that was given.
     pub(crate) other: Option<Convention>,
-    /// Name of the structure.
     pub(crate) structure: &'static str,
 }
 
@@ -203,10 +199,10 @@ impl UnknownStructure {
 
     /// The structure that a `snap` gives the arm, in words.
     #[doc(hidden)]
-    pub fn helpful_snap(&self) -> Option<alloc::string::String> {
+    pub fn helpful_snap(&self) -> Option<String> {
         let Hint::Snap { snap, structure, moves } = self.hint else { return None };
-        let moves = alloc::format!("moves the tool by up to {moves:.1e} m");
-        Some(alloc::format!("snap={:e} gives {structure}, {moves}", SNAPS[usize::from(snap)]))
+        let moves = format!("moves the tool by up to {moves:.1e} m");
+        Some(format!("snap={:e} gives {structure}, {moves}", SNAPS[usize::from(snap)]))
     }
 
     /// Whether a link is too short.
@@ -251,10 +247,10 @@ impl fmt::Display for Missed<'_> {
                     Relation::Perpendicular if is_other => f.write_str("are parallel"),
                     Relation::Parallel if is_other => f.write_str("are at right angles"),
                     Relation::Perpendicular | Relation::Parallel => {
-                        write!(f, "are {} deg off", Figure(off.to_degrees()))
+                        write!(f, "are {} deg off", figure(off.to_degrees()))
                     }
                     Relation::Meeting | Relation::Coplanar => {
-                        write!(f, "pass {} mm apart", Figure(off * 1e3))
+                        write!(f, "pass {} mm apart", figure(off * 1e3))
                     }
                 }?;
                 between = ";";
@@ -265,25 +261,18 @@ impl fmt::Display for Missed<'_> {
 }
 
 /// A size with six decimals, or with its exponent where they would all be zeros.
-struct Figure(f64);
-
-impl fmt::Display for Figure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(size) = *self;
-        if size < 1e-6 { write!(f, "{size:.2e}") } else { write!(f, "{size:.6}") }
-    }
+fn figure(size: f64) -> String {
+    if size < 1e-6 { format!("{size:.2e}") } else { format!("{size:.6}") }
 }
 
 impl fmt::Display for Reading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { order, other, structure } = self;
         let reordered = *order > 0;
-        let list =
-            |f: &mut fmt::Formatter<'_>, [a, b, c, d]: Columns| write!(f, "{a}, {b}, {c}, {d}");
+        let columns = |[a, b, c, d]: Columns| format!("{a}, {b}, {c}, {d}");
         let mut between = ";";
         if reordered {
-            write!(f, "{between} with its columns as ")?;
-            list(f, ORDERS[usize::from(*order)])?;
+            write!(f, "{between} with its columns as {}", columns(ORDERS[usize::from(*order)]))?;
             between = ",";
         }
         match other {
@@ -295,8 +284,7 @@ impl fmt::Display for Reading {
         write!(f, " it has {article}{structure}:")?;
         let mut between = "";
         if reordered {
-            write!(f, " reorder them to ")?;
-            list(f, ORDERS[0])?;
+            write!(f, " reorder them to {}", columns(ORDERS[0]))?;
             between = " and";
         }
         match *other {

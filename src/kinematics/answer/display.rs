@@ -4,42 +4,24 @@ use core::fmt;
 
 use super::solutions::{Solution, Solutions};
 
-/// An angle in degrees with two decimals, without the sign of a rounded zero.
-struct Degrees(f64);
-
-impl fmt::Display for Degrees {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let degrees = self.0.to_degrees();
-        let shown = if degrees.abs() < 0.005 { 0.0 } else { degrees };
-        write!(f, "{shown:8.2}")
-    }
-}
-
-/// The limits and singularities of a solution, in words.
-struct Remarks<'a, const N: usize>(&'a Solution<N>);
-
-impl<const N: usize> fmt::Display for Remarks<'_, N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(solution) = self;
-        f.write_str(if solution.is_within_limits() { "inside limits" } else { "outside limits" })?;
-        for name in solution.singularities().words() {
-            write!(f, ", {name} singularity")?;
-        }
-        match solution.free_joint {
-            Some(free) => write!(f, ", J{} undetermined", free.joint()),
-            None => Ok(()),
-        }
-    }
-}
-
 impl<const N: usize> fmt::Display for Solution<N> {
     /// Slot, joint angles [deg], limits and singularities, in one line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:4}", self.slot.index())?;
         for angle in self.q {
-            write!(f, " {}", Degrees(angle))?;
+            let degrees = angle.to_degrees();
+            // Without the sign of a rounded zero.
+            let shown = if degrees.abs() < 0.005 { 0.0 } else { degrees };
+            write!(f, " {shown:8.2}")?;
         }
-        write!(f, "  {}", Remarks(self))
+        f.write_str(if self.is_within_limits() { "  inside limits" } else { "  outside limits" })?;
+        for name in self.singularities().words() {
+            write!(f, ", {name} singularity")?;
+        }
+        match self.free_joint {
+            Some(free) => write!(f, ", J{} undetermined", free.joint()),
+            None => Ok(()),
+        }
     }
 }
 

@@ -126,7 +126,6 @@ impl<const N: usize> Solutions<N> {
         SlotStatus::new(self.places.map(|place| place.status() | uncertified), self.slot_count)
     }
 
-    /// The content of each slot.
     #[inline]
     pub(crate) fn places(&self) -> &[Place<N>] {
         &self.places[..self.slot_count]

@@ -5,9 +5,7 @@
 //! if axes 2 and 3 turn in opposite senses, minus q2 (docs/theory/spherical_wrist.md, eq. 25).
 
 #[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-#[cfg(not(feature = "std"))]
-use nalgebra::RealField as _;
+use nalgebra::{ComplexField as _, RealField as _};
 
 use super::limits::{JointLimits, check, overrun};
 use crate::error::{Error, ModelFault};

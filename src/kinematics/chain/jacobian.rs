@@ -32,7 +32,6 @@ impl<const N: usize> Chain<N> {
         SMatrix::from_fn(|i, joint| rows[i][joint])
     }
 
-    /// The rows of [`Self::jacobian`].
     pub(crate) fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
         match self.tilts() {
             None => run(OneJacobian::<N, false> { chain: self, frame, q }),

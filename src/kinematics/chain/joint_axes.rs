@@ -85,7 +85,6 @@ impl<const N: usize> Mdh<N> {
     }
 }
 
-/// An axis as a line.
 #[derive(Clone, Copy)]
 struct Line {
     /// Unit direction.

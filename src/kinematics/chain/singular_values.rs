@@ -23,7 +23,6 @@ const MOST_ROOT_STEPS: usize = 32;
 /// Figures of the singular values of a Jacobian.
 #[derive(Clone, Copy)]
 pub(in crate::kinematics) struct SingularValues {
-    /// The least.
     pub(in crate::kinematics) least: f64,
     /// The product of all six.
     pub(in crate::kinematics) product: f64,

@@ -4,9 +4,8 @@ use alloc::vec::Vec;
 
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::kinematics::path::follow::{Break, BreakReason, Followed, between};
+use crate::kinematics::path::follow::{Break, BreakReason, Followed, between, largest_step};
 use crate::kinematics::path::singularity_mode::SingularityMode;
-use crate::kinematics::path::step::largest_step;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
@@ -65,28 +64,24 @@ impl<const N: usize> Robot<N> {
         let change = wrap(arm_angle.unwrap_or(own) - own);
         #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 poses")]
         let part = |index: usize| index as f64 / (path.len().max(2) - 1) as f64;
-        let mut followed = Followed {
-            q: Vec::with_capacity(path.len()),
-            orientation_error: Vec::new(),
-            breaks: Vec::new(),
-        };
+        let (mut joints, mut breaks) = (Vec::with_capacity(path.len()), Vec::new());
         let mut q = *from;
-        followed.q.extend(path.first().map(|_| Some(q)));
+        joints.extend(path.first().map(|_| Some(q)));
         for (index, poses) in path.windows(2).enumerate() {
             let angles = [part(index), part(index + 1)].map(|part| own + part * change);
             let way = [(&poses[0], angles[0]), (&poses[1], angles[1])];
             let next = self.walk_to(&q, way, HALVINGS);
             if let Some(next) = next.filter(|next| self.limits().contains(next)) {
                 q = next;
-                followed.q.push(Some(q));
+                joints.push(Some(q));
                 continue;
             }
             let reason = self.reason(&q, next, &poses[1], angles[1])?;
-            followed.breaks.push(Break { pose_index: index + 1, reason });
+            breaks.push(Break { pose_index: index + 1, reason });
             break;
         }
-        followed.q.resize(path.len(), None);
-        Ok(followed)
+        joints.resize(path.len(), None);
+        Ok(Followed { q: joints, orientation_error: Vec::new(), breaks })
     }
 
     /// The reason why no way leads from joints to a pose and an arm angle, or only one outside the

@@ -12,7 +12,6 @@ use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed_near, check_weights};
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::SingularityKind;
-use crate::kinematics::path::step::{largest, largest_step, steps};
 use crate::kinematics::pose::angles::rotation_vector;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
@@ -310,4 +309,22 @@ pub(super) fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
     let turn = rotation_vector(&(from.rotation.inverse() * to.rotation)) * part;
     let position = from.translation.vector.lerp(&to.translation.vector, part);
     IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))
+}
+
+/// The steps from one joint vector to another [rad].
+pub fn steps<const N: usize>(from: &[f64; N], to: &[f64; N]) -> [f64; N] {
+    core::array::from_fn(|joint| to[joint] - from[joint])
+}
+
+/// The largest size of steps [rad].
+pub fn largest<const N: usize>(steps: &[f64; N]) -> f64 {
+    steps.iter().fold(0.0, |most, step| most.max(step.abs()))
+}
+
+/// The joint (from 1) that moves most from one joint vector to another, and its step [rad].
+#[doc(hidden)]
+pub fn largest_step<const N: usize>(from: &[f64; N], to: &[f64; N]) -> (usize, f64) {
+    let steps = steps(from, to);
+    let joint = (0..N).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });
+    (joint + 1, steps[joint])
 }

@@ -3,7 +3,6 @@
 mod arm_angle;
 pub(crate) mod follow;
 pub(crate) mod singularity_mode;
-pub(crate) mod step;
 mod walk;
 
 #[cfg(test)]

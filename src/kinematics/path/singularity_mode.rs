@@ -3,8 +3,7 @@
 use crate::error::{Error, JointFault, ModelFault};
 use crate::interrupt::Interrupt;
 use crate::kinematics::answer::status::SingularityKind;
-use crate::kinematics::path::follow::{BreakReason, Followed, Follower};
-use crate::kinematics::path::step::largest_step;
+use crate::kinematics::path::follow::{BreakReason, Followed, Follower, largest_step};
 use crate::kinematics::path::walk::Walk;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;

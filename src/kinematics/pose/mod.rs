@@ -313,7 +313,6 @@ fn check_near(field: &'static str, xyz: [f64; 3]) -> Result<(), Error> {
     }
 }
 
-/// The translation by `z` along z.
 pub(crate) fn translation_z(z: f64) -> Pose {
     IsometryMatrix3::from_parts(
         Translation3::from(Vector3::new(0.0, 0.0, z)),

@@ -6,7 +6,6 @@ use nalgebra::Rotation3;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-/// The rows of a 3x3 matrix.
 pub(crate) type Rows3 = [[f64; 3]; 3];
 
 /// The six independent elements of `R^T R - I`.

@@ -111,12 +111,6 @@ impl<S, V> ByJoints<S, V> {
     }
 }
 
-impl From<AnyRobot> for ByJoints<Arc<Robot<6>>, Arc<Robot<7>>> {
-    fn from(robot: AnyRobot) -> Self {
-        on!(robot, robot => robot.into())
-    }
-}
-
 impl AnyRobot {
     /// Catalog name, or the name given by the caller.
     #[must_use]

@@ -97,7 +97,6 @@ where
         Self::recognized(mdh, Self::COUNT, known::recognize)
     }
 
-    /// The robot of a definition.
     #[cfg(feature = "serde")]
     pub(super) fn of_definition(definition: Definition<N>) -> Result<Self, Error> {
         match definition {

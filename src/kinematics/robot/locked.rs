@@ -133,7 +133,6 @@ impl<const N: usize> Robot<N> {
         self.lock.as_ref().map(|lock| lock.joint.axis())
     }
 
-    /// The lock of a joint.
     #[inline]
     pub(in crate::kinematics) fn lock(&self) -> Option<&Lock<N>> {
         self.lock.as_ref()

@@ -66,7 +66,10 @@ impl<const N: usize> Robot<N> {
         let Some(distances) = self.singular_distances(q) else {
             return Some([self.first_order_distance(q)? / FRAC_PI_2, 1.0, 1.0]);
         };
-        let shoulder = distances.shoulder / (0.5 * self.reach_of_wrist());
+        // Upper arm and forearm: all links between axis 1 and the wrist [m].
+        let links = self.mdh().rows.iter().skip(1).take(3);
+        let reach: f64 = links.map(|row| row.a.abs() + row.d.abs()).sum();
+        let shoulder = distances.shoulder / (0.5 * reach);
         Some([distances.wrist / FRAC_PI_2, distances.elbow / FRAC_PI_2, shoulder])
     }
 
@@ -99,11 +102,6 @@ impl<const N: usize> Robot<N> {
     /// [`Self::margin`] with each joint at the 2 pi equivalent that leaves the most room.
     pub(crate) fn margin_of_any_turn(&self, q: &[f64; N]) -> Margin {
         self.margin(&centered(&self.limits, q))
-    }
-
-    /// Length of upper arm and forearm: of all links between axis 1 and the wrist [m].
-    fn reach_of_wrist(&self) -> f64 {
-        self.mdh().rows.iter().skip(1).take(3).map(|row| row.a.abs() + row.d.abs()).sum()
     }
 }
 

@@ -8,7 +8,6 @@ pub(super) mod joints;
 mod linkage;
 mod locked;
 mod margin;
-mod nominal;
 mod reading;
 #[cfg(feature = "serde")]
 mod stored;
@@ -177,7 +176,6 @@ impl<const N: usize> Robot<N> {
         Some((inverse.self_motions()?, inverse.wrist_pose(pose)))
     }
 
-    /// Return the arm without lanes.
     #[cfg(test)]
     pub(in crate::kinematics) fn without_lanes(self) -> Self {
         let inverse = self.inverse().map(Inverse::without_lanes);

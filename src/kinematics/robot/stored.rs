@@ -73,20 +73,17 @@ where
             robot.check_linkage()?;
             robot = robot.with_coupling(true);
         }
-        let max_velocity = match self.max_velocity {
-            Some(all) => {
-                let all: Vec<f64> = all.iter().map(|one| one.unwrap_or(f64::INFINITY)).collect();
-                let joint_count = |found: usize| ModelFault::JointCount { found, wanted: N };
-                Some(<[f64; N]>::try_from(all).map_err(|all| joint_count(all.len()))?)
-            }
-            None => None,
-        };
+        let max_velocity = self.max_velocity.map(|all| {
+            let all: Vec<f64> = all.iter().map(|one| one.unwrap_or(f64::INFINITY)).collect();
+            let joint_count = |found: usize| ModelFault::JointCount { found, wanted: N };
+            <[f64; N]>::try_from(all).map_err(|all| joint_count(all.len()))
+        });
         robot
             .with_labels(self.labels)
             .with_name(self.name)
             .with_limits(self.limits)
             .with_linkage_limits(self.limits.linkage())?
-            .with_max_velocity(max_velocity)?
+            .with_max_velocity(max_velocity.transpose()?)?
             .with_base(&self.base)?
             .with_tool(&self.tool)?
             .with_lock(self.locked)

@@ -5,7 +5,7 @@ use crate::kinematics::answer::check::check_angle;
 use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::{Pose, checked_pose, pose_from_rows};
-use crate::kinematics::robot::{Lock, Robot};
+use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::inverse::{Inverse, Rows};
@@ -101,7 +101,6 @@ impl<const N: usize> Robot<N> {
         });
     }
 
-    /// Solve one row by itself.
     #[cold]
     fn ik_row(&self, pose: &PoseRow, locked: f64, q: &mut [[f64; N]], status: &mut [u8]) {
         q.fill([f64::NAN; N]);
@@ -141,7 +140,8 @@ impl<const N: usize> Robot<N> {
         solutions: &mut Solutions<N>,
         locked: f64,
     ) -> Result<(), Error> {
-        if let Some(lock) = self.lock_of_six() {
+        // What is next to a singularity is left to the six others of a joint before the last.
+        if let Some(lock) = self.lock().filter(|lock| lock.joint.joint() != 6) {
             let pose = lock.joint.seen(&solutions.pose, locked);
             let mut six = lock.six.unsolved(pose);
             lock.six.solve_singular(&mut six, f64::NAN)?;
@@ -213,12 +213,6 @@ impl<const N: usize> Robot<N> {
             let reason = self.missing_form().unwrap_or(UnknownStructure::joint_count(N));
             ModelFault::UnknownStructure(reason).into()
         })
-    }
-
-    /// The lock of a joint before the last: what is next to a singularity is left to the six
-    /// others.
-    fn lock_of_six(&self) -> Option<&Lock<N>> {
-        self.lock().filter(|lock| lock.joint.joint() != 6)
     }
 
     /// Solve a regular pose; return whether the pose is regular.

@@ -157,7 +157,10 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
                     None => {}
                 }
             }
-            self.take_seed();
+            let seed = *self.wanted.seed;
+            if let Some(next) = known.closest_to(&seed).copied() {
+                self.take_if_met(&self.at(seed, &next), &next);
+            }
             if self.best.is_some() {
                 return Ok(());
             }
@@ -341,7 +344,11 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         let named = solution.free_joint.filter(is_searched);
         if self.robot.singular_wrist().is_none() {
             let parallel = Some(FreeJoint::Parallel);
-            let hidden = self.has_uncertain_plane(solution) && named != parallel;
+            // An undetermined plane of the arm may leave joint 6 of three parallel axes so, too.
+            let hidden = (self.must_meet()
+                || solution.singularities().contains(SingularityKind::WRIST))
+                && self.robot.sin_5(&solution.q).is_some_and(|sin| sin.abs() <= UNCERTAIN_SIN_5)
+                && named != parallel;
             return [named, parallel.filter(|_| hidden), None];
         }
         let hidden = |kind: SingularityKind, free: FreeJoint| {
@@ -352,14 +359,6 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             hidden(SingularityKind::SHOULDER, FreeJoint::Base),
             hidden(SingularityKind::ELBOW, self.upper()),
         ]
-    }
-
-    /// Whether an undetermined plane of the arm may leave joint 6 of three parallel axes
-    /// undetermined.
-    fn has_uncertain_plane(&self, solution: &Solution<N>) -> bool {
-        self.robot.singular_wrist().is_none()
-            && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
-            && self.robot.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_SIN_5)
     }
 
     /// The free joint of an arm that is folded onto axis 2.

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, JointFault};
 use crate::kinematics::answer::check::check_angle;
-use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
@@ -61,7 +61,12 @@ impl<const N: usize> Robot<N> {
             q[partner - 1] += sign * (q[joint] - value);
             Some(Solution { q: self.limits().wrap(q), ..*solution })
         } else {
-            let solutions = self.solve_with_free_joint(pose, solution, free, value)?;
+            // Every solution with the joint at the angle, even if the pose determines it.
+            let mut q = solution.q;
+            q[joint] = value;
+            let is_behind = solution.slot.index() >= self.slot_count() / 2;
+            let forced = FreeChoice::forced(q, free.joint(), is_behind);
+            let solutions = self.solve(*pose, &forced)?;
             // Its branch, or the one that it becomes.
             let mut slots = free.branches().iter().copied().flatten();
             slots.find_map(|other| solutions.slot(solution.slot.index() ^ other).copied())
@@ -71,22 +76,6 @@ impl<const N: usize> Robot<N> {
             moved.status.set(Status::WITHIN_LIMITS, self.limits().contains(&moved.q));
             moved
         }))
-    }
-
-    /// Every solution with the free joint at `value`, even if the pose determines it.
-    pub(super) fn solve_with_free_joint(
-        &self,
-        pose: &Pose,
-        solution: &Solution<N>,
-        free: FreeJoint,
-        value: f64,
-    ) -> Result<Solutions<N>, Error> {
-        let mut q = solution.q;
-        q[free.joint() - 1] = value;
-        self.solve(
-            *pose,
-            &FreeChoice::forced(q, free.joint(), solution.slot.index() >= self.slot_count() / 2),
-        )
     }
 }
 

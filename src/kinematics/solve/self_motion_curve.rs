@@ -2,7 +2,7 @@
 //!
 //! Reference: Allgower and Georg, Introduction to Numerical Continuation Methods, 2003, chapter 2.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Const, LU, SMatrix, SVector, Vector3};
 
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::pose::Pose;
@@ -11,6 +11,9 @@ use crate::kinematics::thresholds::POSITION_ROUNDING;
 
 /// Seven joint angles [rad].
 pub(in crate::kinematics) type Joints = SVector<f64, 7>;
+
+/// The factors of a matrix of seven rows and columns.
+type Factors = LU<f64, Const<7>, Const<7>>;
 
 /// Rounds in which Newton's method converges, if it does.
 const ROUNDS: u32 = 12;
@@ -30,16 +33,38 @@ pub(in crate::kinematics) struct SelfMotion<'a> {
     pub(in crate::kinematics) rounding: f64,
 }
 
-/// A point of the curve, and the unit direction of the curve there.
+/// A point of the curve, and its first two derivatives by the way in the direction `along`, a unit
+/// vector.
 #[derive(Clone, Copy)]
 pub(in crate::kinematics) struct Point {
     pub(in crate::kinematics) q: Joints,
     pub(in crate::kinematics) along: Joints,
+    pub(in crate::kinematics) bend: Joints,
 }
 
 impl Point {
     pub(in crate::kinematics) fn joints(&self) -> [f64; 7] {
         self.q.into()
+    }
+
+    /// A point of the curve with its Jacobian, extended by one row that is not zero along the curve,
+    /// and the factors of this matrix.
+    fn new(q: Joints, extended: &SMatrix<f64, 7, 7>, factors: &Factors) -> Option<Self> {
+        let along = unit(factors.solve(&Joints::ith(6, 1.0))?)?;
+        // Accelerations of the tool if all joints went on evenly along the tangent.
+        let mut turned = Vector3::<f64>::zeros();
+        let mut accelerations = Joints::zeros();
+        for (joint, speed) in along.iter().enumerate() {
+            let moves = *speed * extended.fixed_view::<3, 1>(0, joint);
+            let turns = *speed * extended.fixed_view::<3, 1>(3, joint);
+            let mut linear = accelerations.fixed_rows_mut::<3>(0);
+            linear += (2.0 * turned + turns).cross(&moves);
+            let mut angular = accelerations.fixed_rows_mut::<3>(3);
+            angular += turned.cross(&turns);
+            turned += turns;
+        }
+        let bend = -factors.solve(&accelerations)?;
+        Some(Self { q, along, bend: bend - along * along.dot(&bend) })
     }
 }
 
@@ -49,7 +74,7 @@ impl SelfMotion<'_> {
         // An arm that is singular with one joint fixed is not singular with every other one fixed.
         let along = [6, 4, 2, 0, 1, 3, 5].into_iter().find_map(|joint| {
             let border = Joints::ith(joint, 1.0);
-            self.direction(q, &border)
+            unit(self.bordered(q, &border).lu().solve(&Joints::ith(6, 1.0))?)
         })?;
         self.across(q, &along)
     }
@@ -81,13 +106,14 @@ impl SelfMotion<'_> {
         for _ in 0..ROUNDS {
             let (border, off) = seventh(&q);
             let wanted = self.robot.off(self.pose, &q.into()).push(off);
-            let bordered = self.bordered(&q, &border).lu();
-            let correction = bordered.solve(&wanted)?;
+            let bordered = self.bordered(&q, &border);
+            let factors = bordered.lu();
+            let correction = factors.solve(&wanted)?;
             let size = correction.amax();
             // Near a singularity of the curve, rounding keeps corrections large that do not change
             // the pose.
             if wanted.amax() <= self.rounding && size >= 0.5 * rest {
-                return Some(Point { q, along: unit(bordered.solve(&Joints::ith(6, 1.0))?)? });
+                return Point::new(q, &bordered, &factors);
             }
             if size.is_nan() || size > LARGEST_CORRECTION {
                 return None;
@@ -95,16 +121,11 @@ impl SelfMotion<'_> {
             q += correction;
             // Converged when it no longer shrinks.
             if size <= AT_REST && (size >= 0.5 * rest || size <= POSITION_ROUNDING) {
-                return Some(Point { q, along: unit(bordered.solve(&Joints::ith(6, 1.0))?)? });
+                return Point::new(q, &bordered, &factors);
             }
             rest = size;
         }
         None
-    }
-
-    /// The direction of the curve at `q`, on the side that `border` points to.
-    fn direction(&self, q: &Joints, border: &Joints) -> Option<Joints> {
-        unit(self.bordered(q, border).lu().solve(&Joints::ith(6, 1.0))?)
     }
 
     /// The Jacobian extended by one row.

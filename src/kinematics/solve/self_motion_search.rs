@@ -114,11 +114,15 @@ impl<const N: usize> NearestSearch<'_, N> {
     }
 
     fn look_along_family(&mut self, along: Along<'_, N>) {
-        if self.is_too_far(along) {
+        let Wanted { seed, weights, .. } = self.wanted;
+        let apart = |joint: usize| weights[joint] * wrap(along.from.q[joint] - seed[joint]).powi(2);
+        let still: f64 = along.free.still().iter().map(|joint| apart(joint - 1)).sum();
+        // The joints that stand still may cost more than what was found.
+        if self.best.is_some_and(|best| still > best.cost) {
             return;
         }
         let joint = along.free.joint() - 1;
-        let seed = self.wanted.seed[joint];
+        let seed = seed[joint];
         for angle in [along.from.q[joint], seed] {
             for turned in [angle, angle + PI] {
                 let sample = self.sample(along, turned);
@@ -160,14 +164,6 @@ impl<const N: usize> NearestSearch<'_, N> {
             }
         }
         self.best.is_some()
-    }
-
-    /// Whether the joints that stand still cost more than what was found.
-    fn is_too_far(&self, along: Along<'_, N>) -> bool {
-        let Wanted { seed, weights, .. } = self.wanted;
-        let apart = |joint: usize| weights[joint] * wrap(along.from.q[joint] - seed[joint]).powi(2);
-        let still: f64 = along.free.still().iter().map(|joint| apart(joint - 1)).sum();
-        self.best.is_some_and(|best| still > best.cost)
     }
 
     /// Whether the pose is met elsewhere than at the solution: next to a singularity it is not, or

@@ -42,23 +42,6 @@ impl<const N: usize> NearestSearch<'_, N> {
         }
     }
 
-    /// Take the seed if it reaches the pose, as a solution of the branch that is next to it.
-    pub(super) fn take_seed(&mut self) {
-        let seed = *self.wanted.seed;
-        if let Some(next) = self.next_to_seed(self.known) {
-            self.take_if_met(&self.at(seed, &next), &next);
-        }
-    }
-
-    /// Return the solution that is next to the seed.
-    fn next_to_seed(&self, solutions: &Solutions<N>) -> Option<Solution<N>> {
-        let seed = self.wanted.seed;
-        let apart = |solution: &&Solution<N>| {
-            (0..N).map(|joint| wrap(solution.q[joint] - seed[joint]).powi(2)).sum::<f64>()
-        };
-        solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).copied()
-    }
-
     /// Search the joints near the seed that reach the pose.
     pub(super) fn start_from_seed(&mut self, solutions: &Solutions<N>) {
         let seed = *self.wanted.seed;
@@ -68,7 +51,7 @@ impl<const N: usize> NearestSearch<'_, N> {
         {
             return;
         }
-        if let Some(next) = self.next_to_seed(solutions) {
+        if let Some(next) = solutions.closest_to(&seed).copied() {
             self.move_onto_pose(&seed, LIMIT_SLACK, &next);
         }
     }
@@ -99,5 +82,15 @@ impl<const N: usize> NearestSearch<'_, N> {
                 self.start_with_straight_wrist(&start, solution);
             }
         }
+    }
+}
+
+impl<const N: usize> Solutions<N> {
+    /// The solution closest to joint angles [rad], turns not counted.
+    pub(super) fn closest_to(&self, q: &[f64; N]) -> Option<&Solution<N>> {
+        let apart = |solution: &Solution<N>| -> f64 {
+            solution.q.iter().zip(q).map(|(own, q)| wrap(own - q).powi(2)).sum()
+        };
+        self.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))
     }
 }

@@ -189,7 +189,6 @@ impl Frame {
         }
     }
 
-    /// This frame times a constant one.
     #[inline(always)]
     pub(crate) fn times<const FUSED: bool>(&self, behind: &Self) -> Self {
         Self {

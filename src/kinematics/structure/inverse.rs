@@ -26,7 +26,6 @@ pub(crate) type Solved<const N: usize> = (Chain<N>, Arc<dyn Inverse<N>>);
 /// `locked` is the angle of the joint that a caller locks [rad], in an arm of seven joints; an arm
 /// of six ignores it.
 pub(crate) trait Inverse<const N: usize>: Debug + Send + Sync {
-    /// Name of the structure.
     fn name(&self) -> &'static str;
 
     fn slot_count(&self) -> usize;
@@ -82,7 +81,6 @@ pub(crate) trait Inverse<const N: usize>: Debug + Send + Sync {
     /// The slot of the branch that `q` is on; `None` if slots are ordinals.
     fn slot(&self, q: &[f64; N]) -> Option<Slot>;
 
-    /// Return the arm without lanes.
     #[cfg(test)]
     fn without_lanes(&self) -> Arc<dyn Inverse<N>>;
 

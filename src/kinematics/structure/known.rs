@@ -71,7 +71,6 @@ impl<const N: usize> Recognized<N> {
     }
 }
 
-/// Recognize the structure of a table.
 pub(crate) fn recognize<const N: usize>(mdh: &Mdh<N>, known: &Known<N>) -> Recognized<N> {
     let nearest = match closed_form(mdh, known) {
         Ok(solved) => return Recognized::new(solved, None),

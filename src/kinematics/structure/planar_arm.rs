@@ -192,16 +192,9 @@ impl PlanarArm {
         (r - longest_or_shortest).abs()
     }
 
-    /// Distance of the arm's end from axis 1 along the plane of the arm [m]; negative behind it.
+    /// [`Self::sin_elbow`], and the distance of the arm's end from axis 1 along the plane of the arm
+    /// [m], negative behind it: from sines and cosines of theta_2 and theta_3.
     #[inline]
-    pub(crate) fn x_of_end(&self, theta_2: f64, theta_3: f64) -> f64 {
-        let (sin_2, cos_2) = theta_2.sin_cos();
-        let (sin_3, cos_3) = theta_3.sin_cos();
-        let (sin_23, cos_23) = (sin_2 * cos_3 + cos_2 * sin_3, cos_2 * cos_3 - sin_2 * sin_3);
-        self.a1 + self.c2 * sin_2 + self.c3 * sin_23 + self.a2 * cos_23
-    }
-
-    /// [`Self::sin_elbow`] and [`Self::x_of_end`], from sines and cosines of theta_2 and theta_3.
     pub(crate) fn elbow_and_end(
         &self,
         (sin_2, cos_2): (f64, f64),

@@ -54,6 +54,9 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         let Some(regular) = run(Single { kernel, columns, seen, pose, locked }) else {
             return false;
         };
+        if let Some(reach) = regular.missed() {
+            solutions.reach = reach;
+        }
         for (index, place) in solutions.first_places::<S>().iter_mut().enumerate() {
             let Some((q, status)) = regular.slot(index) else { continue };
             let status = Status::from_bits_retain(status);
@@ -183,7 +186,7 @@ struct Single<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
 }
 
 impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Kernel for Single<'_, K, N, S> {
-    /// `None` if a branch is not regular, or none reaches: the scalar solver then decides.
+    /// `None` if a branch is not regular: the scalar solver then decides.
     type Answer = Option<K::Regular>;
     const WIDE: bool = K::WIDE;
 

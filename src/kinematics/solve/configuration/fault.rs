@@ -1,7 +1,7 @@
 //! A configuration that is refused.
 
-use core::fmt;
-
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use thiserror::Error;
@@ -12,7 +12,10 @@ use crate::report::{Configuration, FreeJoint, Listed};
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
     "no solution inside the limits has the configuration {wanted}; there are {}{}{}",
-    Listed(.existing, ", "), if *.more { " and more" } else { "" }, OtherAngles(*.free)
+    Listed(.existing, ", "), if *.more { " and more" } else { "" },
+    .free.map_or_else(String::new, |free| format!(
+        ", and others with other angles of J{}, which is free at this pose", free.joint()
+    ))
 )]
 pub struct NoConfiguration {
     /// The one that was asked for.
@@ -29,16 +32,4 @@ pub struct NoConfiguration {
 impl NoConfiguration {
     /// How many configurations are listed at most.
     pub const MOST: usize = 64;
-}
-
-/// The end of a message: configurations at other angles of a free joint.
-struct OtherAngles(Option<FreeJoint>);
-
-impl fmt::Display for OtherAngles {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |free| {
-            let joint = free.joint();
-            write!(f, ", and others with other angles of J{joint}, which is free at this pose")
-        })
-    }
 }

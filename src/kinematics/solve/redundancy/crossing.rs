@@ -23,7 +23,7 @@ impl Search<'_> {
                 return;
             };
             for start in self.branches_near(&q).into_iter().flatten().flatten() {
-                self.descend_by(start, FIRST_STEP);
+                self.descend(start, FIRST_STEP);
             }
             if self.best.is_none_or(|(least, _)| least >= cost) {
                 return;

@@ -6,37 +6,55 @@ use core::ops::ControlFlow::{Break, Continue};
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::Search;
-use crate::kinematics::solve::self_motion_curve::Point;
+use super::samples::Sample;
+use crate::kinematics::solve::self_motion_curve::{Joints, Point};
 use crate::kinematics::structure::continuum::{Steps, walk};
 use crate::kinematics::thresholds::LEAST_CURVE_STEP;
 
-/// Steps along one curve [rad], and rounds that locate the bottom of a valley between two of them.
-const STEPS: Steps =
-    Steps { first: 0.05, least: LEAST_CURVE_STEP, longest: 0.2, shorter: 0.5, most: 120 };
-const ROUNDS: u32 = 40;
+/// Steps along one curve [rad].
+pub(super) const STEPS: Steps =
+    Steps { first: 0.2, least: LEAST_CURVE_STEP, longest: 0.2, shorter: 0.5, most: 120 };
+
+/// The last step of Newton's method to the bottom of a valley [rad]: what it leaves is rounding.
+const AT_BOTTOM: f64 = 1e-7;
 
 impl Search<'_> {
-    /// How the cost changes along the curve.
-    fn slope(&self, point: &Point) -> f64 {
-        (0..7)
-            .map(|joint| {
-                self.weights[joint] * (point.q[joint] - self.seed[joint]) * point.along[joint]
-            })
-            .sum()
+    /// The step along the tangent to the bottom of the valley, as its slope and its bend are here;
+    /// a step of length `most` where these do not tell.
+    fn step_down(&self, point: &Point, most: f64) -> f64 {
+        let weights = Joints::from(self.weights);
+        let force = (point.q - Joints::from(self.seed)).component_mul(&weights);
+        let slope = force.dot(&point.along);
+        let of_tangent = weights.dot(&point.along.component_mul(&point.along));
+        let steepens = of_tangent + force.dot(&point.bend);
+        if slope.abs() < most * steepens { -slope / steepens } else { -most.copysign(slope) }
     }
 
-    /// Descend from a point of the curve and, if the point is outside the limits, also from where
-    /// the curve re-enters them.
-    pub(super) fn descend(&mut self, start: Point) {
-        self.descend_by(start, STEPS.first);
-    }
-
-    /// Descend with a first step [rad].
-    pub(super) fn descend_by(&mut self, start: Point, first: f64) {
+    /// Descend from a point of the curve, with a first step [rad], and, if the point is outside the
+    /// limits, also from where the curve re-enters them.
+    pub(super) fn descend(&mut self, start: Point, first: f64) {
         for edge in self.edges(&start).into_iter().flatten() {
             self.downhill(edge, first);
         }
         self.downhill(start, first);
+    }
+
+    /// Descend from a sample. From one outside the limits, look where the curve re-enters them: the
+    /// valley behind is a neighbor's, unless both neighbors are outside, or slots are ordinals, so
+    /// that a neighbor may be of another branch.
+    pub(super) fn descend_from(&mut self, sample: &Sample, neighbors: [Option<&Sample>; 2]) {
+        let mut near = neighbors.into_iter().flatten();
+        let is_inside_near = self.are_named && near.any(|other| other.outside == 0.0);
+        let Some(start) = self.curve.nearest(&Joints::from(sample.q)) else { return };
+        if sample.outside == 0.0 {
+            return self.downhill(start, STEPS.first);
+        }
+        for edge in self.edges(&start).into_iter().flatten() {
+            self.keep(&edge.joints());
+            if !is_inside_near {
+                self.downhill(edge, STEPS.first);
+            }
+        }
     }
 
     /// Where the curve re-enters the limits: one of the joints outside them is at its limit, and
@@ -57,51 +75,22 @@ impl Search<'_> {
     /// not; keep the points inside.
     fn downhill(&mut self, start: Point, first: f64) {
         self.keep(&start.joints());
-        walk(start, Steps { first, ..STEPS }, |point, step| {
-            let slope = self.slope(point);
-            if slope == 0.0 {
-                return Some(Break(()));
-            }
-            let ahead = -step.copysign(slope);
-            let next = self.curve.across(&(point.q + ahead * point.along), &point.along);
+        walk(start, Steps { first, ..STEPS }, |point, most| {
+            let ahead = self.step_down(point, most);
+            let on_parabola = point.q + ahead * (point.along + 0.5 * ahead * point.bend);
+            let next = self.curve.across(&on_parabola, &point.along);
             let next = next.filter(|next| next.along.dot(&point.along) > 0.5)?;
             if self.joints_outside(&next.joints()) != self.joints_outside(&point.joints()) {
                 for end in [point, &next] {
                     self.edges(end).iter().flatten().for_each(|edge| self.keep(&edge.joints()));
                 }
             }
-            let slope_ahead = self.slope(&next);
-            if slope_ahead * slope <= 0.0 {
-                self.bottom(point, ahead, [slope, slope_ahead]);
+            self.keep(&next.joints());
+            if ahead.abs() <= AT_BOTTOM {
                 return Some(Break(()));
             }
-            self.keep(&next.joints());
-            Some(Continue((next, 2.0)))
+            let is_lower = self.cost(&next.joints()) < self.cost(&point.joints());
+            is_lower.then_some(Continue((next, 2.0)))
         });
-    }
-
-    /// Find the bottom of a valley between a point and one ahead of it, with the slopes at both:
-    /// the zero of the slope, by false position.
-    fn bottom(&mut self, point: &Point, ahead: f64, slopes: [f64; 2]) {
-        let curve = self.curve;
-        let at = |part: f64| curve.across(&(point.q + part * ahead * point.along), &point.along);
-        let (mut low, mut high) = ((0.0, slopes[0]), (1.0, slopes[1]));
-        for _ in 0..ROUNDS {
-            let part = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-            let Some(middle) = at(part) else { return };
-            self.keep(&middle.joints());
-            let slope = self.slope(&middle);
-            // The cost is a square: the change from a step this small is below rounding.
-            if slope == 0.0 || ((part - high.0) * ahead).abs() < LEAST_CURVE_STEP {
-                return;
-            }
-            // An end that is kept twice gets half the weight (Illinois).
-            if slope * high.1 < 0.0 {
-                low = high;
-            } else {
-                low.1 *= 0.5;
-            }
-            high = (part, slope);
-        }
     }
 }

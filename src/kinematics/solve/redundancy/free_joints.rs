@@ -47,6 +47,14 @@ pub(super) fn measured(weights: &[f64; 7]) -> [f64; 7] {
     weights.map(|weight| weight.max(LEAST_WEIGHT * most))
 }
 
+/// A Jacobian in the metric of the weights with these roots.
+pub(super) fn in_metric(mut jacobian: SMatrix<f64, 6, 7>, roots: &Joints) -> SMatrix<f64, 6, 7> {
+    for mut row in jacobian.row_iter_mut() {
+        row.component_div_assign(&roots.transpose());
+    }
+    jacobian
+}
+
 impl Search<'_> {
     /// Search the nearest of the joint vectors among which the undetermined joints choose, starting
     /// from a sample's.
@@ -102,10 +110,7 @@ impl Search<'_> {
     pub(super) fn scaled(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<Scaled> {
         let roots = Joints::from(measured(weights).map(f64::sqrt));
         let way = (Joints::from(self.seed) - Joints::from(*q)).component_mul(&roots);
-        let mut jacobian = self.robot.jacobian(q, JacobianFrame::Base);
-        for mut row in jacobian.row_iter_mut() {
-            row.component_div_assign(&roots.transpose());
-        }
+        let jacobian = in_metric(self.robot.jacobian(q, JacobianFrame::Base), &roots);
         let svd = jacobian.try_svd(false, true, f64::EPSILON, SWEEPS)?;
         Some(Scaled { roots, way, sizes: svd.singular_values, rows: svd.v_t? })
     }

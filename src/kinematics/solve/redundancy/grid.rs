@@ -10,7 +10,6 @@ use super::samples::{Sample, Samples};
 use crate::error::Error;
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::slot::MOST_SLOTS;
-use crate::kinematics::solve::self_motion_curve::Joints;
 use crate::kinematics::structure::self_motions::EDGES;
 use crate::kinematics::thresholds::SAMPLE_LEAP;
 
@@ -147,10 +146,8 @@ impl Search<'_> {
             if sample.is_free && sample.is_better_than(free.as_ref()) {
                 free = Some(sample);
             }
-            if self.may_gain(&sample, neighbors)
-                && let Some(start) = self.curve.nearest(&Joints::from(sample.q))
-            {
-                self.descend(start);
+            if self.may_gain(&sample, neighbors) {
+                self.descend_from(&sample, neighbors);
             }
         }
         free.map_or(Ok(()), |sample| self.choose_free_joints(&sample))
@@ -194,7 +191,9 @@ impl Search<'_> {
         let mut marks = Marks { angles: [0.0; EDGES + 2], count: 0 };
         marks.put(low);
         marks.put(high);
-        for edge in self.robot.edges_of_joint_7(self.pose).into_iter().flatten() {
+        let motions = self.robot.self_motions(self.pose);
+        let edges = motions.map(|(motions, pose)| motions.edges_of_joint_7(&pose));
+        for edge in edges.into_iter().flatten().flatten() {
             let edge = edge + TAU * ((low - edge) / TAU).ceil();
             if edge < high {
                 marks.put(edge);

@@ -8,6 +8,7 @@ use core::f64::consts::TAU;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::Search;
+use super::descent::STEPS;
 use super::free_joints::measured;
 use super::samples::Samples;
 use crate::error::Error;
@@ -25,7 +26,9 @@ const HALVINGS: u32 = 60;
 impl Search<'_> {
     /// Search at the angles of joint 7 at which axes 1 and 3 may be in line.
     pub(super) fn at_singular_angles(&mut self) -> Result<(), Error> {
-        for angle in self.robot.singular_angles_of_joint_7(self.pose).into_iter().flatten() {
+        let motions = self.robot.self_motions(self.pose);
+        let angles = motions.map(|(motions, pose)| motions.singular_angles_of_joint_7(&pose));
+        for angle in angles.into_iter().flatten().flatten() {
             let Some(q7) = self.robot.limits().turn_nearest(6, angle, self.seed[6]) else {
                 continue;
             };
@@ -56,7 +59,7 @@ impl Search<'_> {
             let Some(turned) = self.turned_in_line(q, apart) else { continue };
             self.samples(&turned)?;
             if let Some(start) = self.curve.nearest(&Joints::from(turned)) {
-                self.descend(start);
+                self.descend(start, STEPS.first);
             }
             self.slide(self.sample(turned))?;
         }

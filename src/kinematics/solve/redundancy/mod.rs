@@ -12,6 +12,7 @@ mod free_joints;
 mod grid;
 mod in_line;
 mod members;
+mod proof;
 mod samples;
 
 use core::cmp::Ordering;
@@ -19,19 +20,17 @@ use core::cmp::Ordering;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use crate::error::{Error, ModelFault};
+use crate::error::Error;
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::robot::joints::Redundancy;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::self_motions::{EDGES, SINGULAR_ANGLES};
 use crate::kinematics::thresholds::{
     JOINT_7_FINER_SPACING, JOINT_7_SPACING, POSITION_ROUNDING, ROTATION_ROUNDING,
 };
@@ -50,7 +49,8 @@ impl Redundancy<7> for Robot<7> {
         weights: &[f64; 7],
         accepts: &dyn Fn(&[f64; 7]) -> bool,
     ) -> Result<Solution<7>, Error> {
-        let found = self.search(pose, seed, weights, accepts)?;
+        let mut found = self.search(pose, seed, weights, accepts)?;
+        found.run()?;
         found
             .nearest()
             .map(|q| self.solution_at(pose, q))
@@ -63,15 +63,14 @@ impl Redundancy<7> for Robot<7> {
         seed: &[f64; 7],
         weights: &[f64; 7],
     ) -> Result<Option<Solution<7>>, Error> {
-        let mut search = self.search_of(pose, seed, weights, &|_| true)?;
-        if !search.keep_seed() {
-            search.descend_from_seed();
-        }
+        let mut search = self.search(pose, seed, weights, &|_| true)?;
+        search.begin();
         search.best.map(|(_, q)| self.solution_at(pose, q)).transpose()
     }
 
     fn explain_along_redundancy(&self, pose: &Pose) -> Result<Explanation, Error> {
-        let found = self.search(pose, &self.limits().rest(), &[1.0; 7], &|_| true)?;
+        let mut found = self.search(pose, &self.limits().rest(), &[1.0; 7], &|_| true)?;
+        found.run()?;
         let Some(q) = found.nearest() else {
             return Ok(self.with_approach(found.missed.explanation, pose));
         };
@@ -84,6 +83,7 @@ impl Redundancy<7> for Robot<7> {
 }
 
 impl Robot<7> {
+    /// A search that has not begun.
     fn search<'a>(
         &'a self,
         pose: &'a Pose,
@@ -91,22 +91,7 @@ impl Robot<7> {
         weights: &[f64; 7],
         accepts: &'a dyn Fn(&[f64; 7]) -> bool,
     ) -> Result<Search<'a>, Error> {
-        let mut search = self.search_of(pose, seed, weights, accepts)?;
-        search.run()?;
-        Ok(search)
-    }
-
-    /// A search that has not begun.
-    fn search_of<'a>(
-        &'a self,
-        pose: &'a Pose,
-        seed: &[f64; 7],
-        weights: &[f64; 7],
-        accepts: &'a dyn Fn(&[f64; 7]) -> bool,
-    ) -> Result<Search<'a>, Error> {
-        if let Some(reason) = self.unknown_structure() {
-            return Err(ModelFault::UnknownStructure(reason).into());
-        }
+        self.check_structure()?;
         Ok(Search {
             robot: self,
             curve: SelfMotion { robot: self, pose, rounding: self.rounding() },
@@ -134,29 +119,12 @@ impl Robot<7> {
         (POSITION_ROUNDING * rows.chain(ends).sum::<f64>()).max(ROTATION_ROUNDING)
     }
 
-    /// The angles of joint 7 at which branches of the pose begin or end [rad].
-    fn edges_of_joint_7(&self, pose: &Pose) -> [Option<f64>; EDGES] {
-        let motions = self.self_motions(pose);
-        motions.map_or([None; EDGES], |(motions, pose)| motions.edges_of_joint_7(&pose))
-    }
-
-    /// The angles of joint 7 at which axes 1 and 3 may be in line [rad].
-    fn singular_angles_of_joint_7(&self, pose: &Pose) -> [Option<f64>; SINGULAR_ANGLES] {
-        let motions = self.self_motions(pose);
-        let angles = motions.map(|(motions, pose)| motions.singular_angles_of_joint_7(&pose));
-        angles.unwrap_or([None; SINGULAR_ANGLES])
-    }
-
     /// A joint vector of the pose, in its slot.
     fn solution_at(&self, pose: &Pose, q: [f64; 7]) -> Result<Solution<7>, Error> {
         let solutions = self.solve(*pose, &FreeChoice::seed(q))?;
-        let own = self.slot_of(&q);
-        let apart = |solution: &&Solution<7>| {
-            (0..7).map(|joint| wrap(solution.q[joint] - q[joint]).powi(2)).sum::<f64>()
-        };
-        // The ordinal of the solution that this one is.
-        let nearest = solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        let slot = own.or(nearest.map(|nearest| nearest.slot)).unwrap_or(Slot::new(0));
+        // Else the ordinal of the solution that this one is.
+        let nearest = || solutions.closest_to(&q).map(|nearest| nearest.slot);
+        let slot = self.slot_of(&q).or_else(nearest).unwrap_or(Slot::new(0));
         let free = solutions.slot(slot.index()).and_then(|solution| solution.free_joint);
         let status =
             Status::FOUND | Status::WITHIN_LIMITS | Status::from(self.singularity(&q).kinds);
@@ -207,13 +175,13 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&mut self) -> Result<(), Error> {
-        // No cost is below zero, and near a singularity known joints are more exact than any solve.
-        if self.keep_seed() {
-            return Ok(());
-        }
-        // The solution that continues from the seed, with its joint 7 and along the curve.
+        self.begin();
+        if self.is_proven_nearest() { Ok(()) } else { self.look_everywhere() }
+    }
+
+    /// Search all branches: from the solutions with the joint 7 of the seed, then with others.
+    fn look_everywhere(&mut self) -> Result<(), Error> {
         let at_seed = self.samples(&self.seed.clone())?;
-        self.descend_from_seed();
         if !self.are_named {
             self.start_at(&self.seed.clone());
             let chosen = at_seed.slots.iter().flatten().filter(|sample| sample.is_chosen);
@@ -234,16 +202,16 @@ impl Search<'_> {
         Ok(())
     }
 
-    fn keep_seed(&mut self) -> bool {
+    /// Keep the seed if it meets the pose: near a singularity known joints are more exact than any
+    /// solve. Otherwise descend from it.
+    fn begin(&mut self) {
         if self.closes(&self.seed) {
             self.keep(&self.seed.clone());
         }
-        self.best.is_some()
-    }
-
-    fn descend_from_seed(&mut self) {
-        if let Some(start) = self.curve.nearest(&Joints::from(self.seed)) {
-            self.descend(start);
+        if self.best.is_none()
+            && let Some(start) = self.curve.nearest(&Joints::from(self.seed))
+        {
+            self.descend(start, descent::STEPS.first);
         }
     }
 

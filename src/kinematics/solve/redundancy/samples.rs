@@ -98,7 +98,6 @@ impl Samples {
         })
     }
 
-    /// The best sample of all slots.
     pub(super) fn best(&self) -> Option<Sample> {
         let better = |best: Option<Sample>, sample: &Sample| {
             if sample.is_better_than(best.as_ref()) { Some(*sample) } else { best }

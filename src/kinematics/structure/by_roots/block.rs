@@ -35,19 +35,24 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
         _: f64,
     ) -> Option<Solved> {
         let Self(method) = self;
-        if method.closure().target(*t_first_last).is_beyond() {
-            return None;
-        }
         let mut solved = Solved::NEW;
-        solve(method, &columns.row, &[*t_first_last], slice::from_mut(&mut solved));
-        (solved.is_regular && !solved.q.is_empty()).then_some(solved)
+        if !method.is_beyond(t_first_last) {
+            solve(method, &columns.row, &[*t_first_last], slice::from_mut(&mut solved));
+            if !solved.is_regular {
+                return None;
+            }
+        }
+        if solved.q.is_empty() {
+            solved.missed = Some(method.reach(t_first_last));
+        }
+        Some(solved)
     }
 }
 
 /// A block of poses with their solutions.
 pub(crate) struct RegularBlock {
     solved: [Solved; LANES],
-    /// Which of these each lane has.
+    /// Which of these each lane has; none out of reach.
     places: [Option<usize>; LANES],
 }
 
@@ -69,7 +74,7 @@ impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock {
         self.places = places;
         let mut are_regular = [0; LANES];
         for (lane, is_regular) in are_regular.iter_mut().enumerate() {
-            *is_regular = u64::from(self.of(lane).is_some_and(|solved| solved.is_regular));
+            *is_regular = u64::from(self.of(lane).is_none_or(|solved| solved.is_regular));
         }
         are_regular
     }
@@ -130,7 +135,7 @@ impl BlockSlots<6, SLOTS> for RegularBlock {
     }
 }
 
-/// The poses of a block that may be regular, those that repeat the one before left out; how many
+/// The poses of a block that may be in reach, those that repeat the one before left out; how many
 /// there are, and which of them each lane has.
 fn different(
     method: &impl ByRoots,
@@ -139,7 +144,7 @@ fn different(
     let (mut frames, mut count, mut places) = ([Frame::IDENTITY; LANES], 0, [None; LANES]);
     for (lane, place) in places.iter_mut().enumerate() {
         let frame = poses.frame(lane);
-        if method.closure().target(frame).is_beyond() {
+        if method.is_beyond(&frame) {
             continue;
         }
         if count == 0 || frames[count - 1] != frame {

@@ -8,6 +8,7 @@ use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::structure::closure::{Candidates, Closure, Six};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{Root, RootBlock, TrigonometricPolynomial};
+use crate::report::Reach;
 
 /// Slots of an arm whose solutions have no names: as many as six joints can have.
 pub(crate) const SLOTS: usize = MOST_SLOTS;
@@ -18,8 +19,18 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// A pose, prepared for this arm.
     type Posed;
 
-    /// The closure of the arm's joints.
     fn closure(&self) -> &Closure;
+
+    /// Whether a pose is certain to be out of reach, without its polynomial. Must be
+    /// `#[inline(always)]`.
+    fn is_beyond(&self, last: &Frame) -> bool {
+        self.closure().target(*last).is_beyond()
+    }
+
+    /// Return how far a pose without solutions is out of reach.
+    fn reach(&self, _last: &Frame) -> Reach {
+        Reach::NoRoots
+    }
 
     /// How many solutions a simple root has.
     fn per_root(&self) -> usize;

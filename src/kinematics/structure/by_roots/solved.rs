@@ -8,6 +8,7 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::structure::closure::{BelowAndNear, Order, TIED, in_order};
 use crate::kinematics::structure::lanes::{JointRow, RegularPose};
 use crate::lanes::{Column, LANES, Vector};
+use crate::report::Reach;
 
 /// The solutions of a pose as they are found: rows of angles of the table [rad], with what fills the
 /// lanes behind them.
@@ -24,6 +25,7 @@ pub(crate) struct Solved {
     pub(super) status: ArrayVec<u8, SLOTS>,
     /// Whether these are certain to be all.
     pub(crate) is_regular: bool,
+    pub(super) missed: Option<Reach>,
 }
 
 /// Flags of a solution, inside the limits or not.
@@ -73,8 +75,12 @@ impl RootRows {
 }
 
 impl Solved {
-    pub(crate) const NEW: Self =
-        Self { q: ArrayVec::new_const(), status: ArrayVec::new_const(), is_regular: false };
+    pub(crate) const NEW: Self = Self {
+        q: ArrayVec::new_const(),
+        status: ArrayVec::new_const(),
+        is_regular: false,
+        missed: None,
+    };
 
     /// Take what was found, in order, by joint angles; two that are the same are not regular.
     #[inline(always)]
@@ -100,5 +106,9 @@ impl RegularPose<6> for Solved {
     #[inline(always)]
     fn slot(&self, slot: usize) -> Option<([f64; 6], u8)> {
         Some((*self.q.get(slot)?, self.status[slot]))
+    }
+
+    fn missed(&self) -> Option<Reach> {
+        self.missed
     }
 }

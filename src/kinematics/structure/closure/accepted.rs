@@ -58,7 +58,6 @@ impl Accepted {
     /// followed.
     pub(crate) const ROOM: usize = ROOM;
 
-    /// Return an empty set.
     pub(crate) fn new() -> Self {
         Self { all: ArrayVec::new(), is_whole: true, left: MOST_EXAMINED, closest: None }
     }

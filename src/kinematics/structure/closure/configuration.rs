@@ -18,7 +18,6 @@ pub(super) const ISOLATED: f64 = 1e-6;
 /// its twin may be another solution.
 const FOLD: f64 = 3e-8;
 
-/// A solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Configuration {
     /// Angles of the table [rad].

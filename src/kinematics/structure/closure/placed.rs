@@ -20,7 +20,6 @@ impl<T: Number> Placed<T> {
         Self { x: [a[0], b[0], c[0]], y: [a[1], b[1], c[1]], z: [a[2], b[2], c[2]], origin }
     }
 
-    /// This frame times another one.
     #[inline(always)]
     pub(crate) fn times(&self, by: &Frame<T>) -> Self {
         let mut product = *self;

@@ -94,7 +94,6 @@ pub(super) struct Way {
 }
 
 impl Way {
-    /// Return which joints move.
     pub(super) fn moving(&self) -> [bool; 6] {
         self.most.map(|most| most > MOVES)
     }

@@ -24,7 +24,6 @@ pub(super) struct Second<T = f64> {
     pub(super) weights: [[T; 6]; 2],
 }
 
-/// A complex number.
 type Complex = [f64; 2];
 
 #[inline(always)]

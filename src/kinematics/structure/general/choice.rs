@@ -77,7 +77,9 @@ pub(super) fn chosen(
     // Of a split whose roots have two solutions each, a count would prove nothing.
     let all = (0..SPLITS).map(|number| Split::new(links, number)).filter(Split::is_single);
     let mut all = Arc::new(all.collect::<Vec<_>>());
-    let has_pairs = all.len() < SPLITS && !has_three_parallel(links);
+    let is_parallel = |link: &Frame| 1.0 - link.rotation[2][2].abs() <= FORM_TOLERANCE;
+    let are_three_parallel = links.windows(2).any(|pair| pair.iter().all(is_parallel));
+    let has_pairs = all.len() < SPLITS && !are_three_parallel;
     let sizes: Vec<_> =
         (0..all.len()).map(|number| size_of(&AtSplit::new(closure, &all, number))).collect();
     for (split, size) in Arc::make_mut(&mut all).iter_mut().zip(sizes) {
@@ -132,12 +134,6 @@ fn certifying<'a>(
         let method = AtSplit::new(closure, splits, *number);
         poses.iter().any(|last| certifies(&method, last, &mut Accepted::regular_only()))
     })
-}
-
-/// Whether three axes behind one another are parallel.
-fn has_three_parallel(links: &[Frame; 5]) -> bool {
-    let is_parallel = |link: &Frame| 1.0 - link.rotation[2][2].abs() <= FORM_TOLERANCE;
-    links.windows(2).any(|pair| pair.iter().all(is_parallel))
 }
 
 /// The splits of another arm for this one, if each proves a count and they serve it as they serve

@@ -39,7 +39,6 @@ const OF_THE_POSE: f64 = 4.0;
 pub(super) struct Rest<S: Simd> {
     columns: [Six<S>; 6],
     pivots: [Pivot<S>; 6],
-    /// The determinant.
     pub(super) determinant: Vector<S>,
     /// The least of its twelve factors, by size, and of the six before the rest.
     least: Vector<S>,

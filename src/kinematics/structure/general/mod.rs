@@ -28,19 +28,19 @@ use measure::PATTERN;
 use super::Structure;
 use super::branches::Branches;
 use super::by_roots::{RootKernel, SLOTS};
-use super::closure::Closure;
+use super::closure::{Accepted, Closure};
+use super::end_frames::Frame;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
-use super::self_motions::{SelfMotions, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::thresholds::CLOSURE_SINGULAR;
 use crate::report::{Pattern, UnknownStructure};
 
 impl General {
-    /// The closure of its joints.
     pub(crate) fn closure(&self) -> &Closure {
         &self.closure
     }
@@ -79,11 +79,15 @@ impl Structure<6, SLOTS> for General {
     }
 
     fn solve(&self, t_first_last: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6, SLOTS> {
-        self.branches(t_first_last, free)
+        let mut accepted = Accepted::new();
+        let is_certified = self.solutions(&Frame::of(t_first_last), free, &mut accepted);
+        self.slots(&mut accepted, is_certified)
     }
 
     fn singular(&self, q: &[f64; 6]) -> (Option<SingularDistances>, SingularityKind) {
-        (None, self.kinds(q))
+        let least = self.closure.least_singular_value(&self.joint_map.theta(q));
+        let is_at_one = least < CLOSURE_SINGULAR;
+        (None, if is_at_one { SingularityKind::ELBOW } else { SingularityKind::empty() })
     }
 
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
@@ -92,15 +96,5 @@ impl Structure<6, SLOTS> for General {
 
     fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
         None
-    }
-}
-
-impl SelfMotions<6> for General {
-    fn member(&self, t: &Pose, q: &[f64; 6], joint: usize, value: f64) -> Option<[f64; 6]> {
-        self.member_of(t, q, joint, value)
-    }
-
-    fn walk(&self, t: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
-        self.walk_along(t, q, pass);
     }
 }

@@ -11,7 +11,7 @@ use crate::kinematics::structure::closure::{
 };
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::self_motions::TakeStep;
+use crate::kinematics::structure::self_motions::{SelfMotions, TakeStep};
 use crate::kinematics::thresholds::CLOSURE_SINGULAR;
 use crate::report::{FreeJoint, Reach};
 
@@ -42,13 +42,6 @@ impl General {
         AtSplit::new(&self.closure, &self.splits, number)
     }
 
-    /// Return the solutions in slots, which are ordinals.
-    pub(super) fn branches(&self, t_first_last: &Pose, free: &FreeChoice<6>) -> Branches<6, SLOTS> {
-        let mut accepted = Accepted::new();
-        let is_certified = self.solutions(&Frame::of(t_first_last), free, &mut accepted);
-        self.slots(&mut accepted, is_certified)
-    }
-
     /// Put solutions of a pose into slots.
     pub(crate) fn slots(&self, accepted: &mut Accepted, is_certified: bool) -> Branches<6, SLOTS> {
         let is_cut = accepted.cut();
@@ -66,17 +59,11 @@ impl General {
         }
         branches
     }
+}
 
-    /// Return the member of the self-motion of a joint vector of a pose with a joint at an angle: of
-    /// several the nearest.
-    pub(super) fn member_of(
-        &self,
-        t_first_last: &Pose,
-        q: &[f64; 6],
-        joint: usize,
-        value: f64,
-    ) -> Option<[f64; 6]> {
-        let target = self.closure.target_of(t_first_last);
+impl SelfMotions<6> for General {
+    fn member(&self, t: &Pose, q: &[f64; 6], joint: usize, value: f64) -> Option<[f64; 6]> {
+        let target = self.closure.target_of(t);
         let mut near = *q;
         near[joint] = value;
         let near = self.joint_map.theta(&near);
@@ -84,20 +71,13 @@ impl General {
         Some(self.joint_map.joints(motion.member(joint, &near)?))
     }
 
-    /// Walk along the self-motion of a joint vector of a pose.
-    pub(super) fn walk_along(&self, t_first_last: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
-        let target = self.closure.target_of(t_first_last);
+    fn walk(&self, t: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
+        let target = self.closure.target_of(t);
         let joints = |theta: &[f64; 6]| self.joint_map.joints(*theta);
         let motion = SelfMotion::through(&self.closure, &target, &self.joint_map.theta(q));
         if let Some(motion) = motion {
             motion.around(&mut |[one, next]| pass(&joints(&one.theta), &joints(&next.theta)));
         }
-    }
-
-    /// Return the singularities of a joint vector.
-    pub(super) fn kinds(&self, q: &[f64; 6]) -> SingularityKind {
-        let least = self.closure.least_singular_value(&self.joint_map.theta(q));
-        if least < CLOSURE_SINGULAR { SingularityKind::ELBOW } else { SingularityKind::empty() }
     }
 }
 

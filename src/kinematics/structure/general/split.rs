@@ -165,7 +165,8 @@ impl Split {
             for k in 0..MOMENTS {
                 let of_unit = turned_back(joint, &Moments::unit(k));
                 for (part, moments) in parts.iter_mut().zip(of_unit) {
-                    part[k] = sparse(&moments.moved(&self.inverses[joint]));
+                    let moved = moments.moved(&self.inverses[joint]).0.into_iter().enumerate();
+                    part[k] = moved.filter(|(_, moment)| *moment != 0.0).collect();
                 }
             }
             let mut longer = Vec::with_capacity(3 * before.len());
@@ -240,10 +241,6 @@ fn product<S: Simd>(
 
 /// The elements of a column of a matrix that are not zero, with its rows.
 type Sparse = ArrayVec<(usize, f64), MOMENTS>;
-
-fn sparse(moments: &Moments) -> Sparse {
-    moments.0.into_iter().enumerate().filter(|(_, moment)| *moment != 0.0).collect()
-}
 
 /// A row of weights, six in lanes, times the matrix with these columns.
 fn carried_back(weights: &[Column; MOMENTS], matrix: &[Sparse; MOMENTS]) -> [Column; MOMENTS] {

@@ -5,7 +5,6 @@ use crate::lanes::{Column, Flags, LANES};
 
 /// A block of poses with its solutions.
 pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
-    /// The solutions.
     type Slots: BlockSlots<N, S>;
 
     /// Room for a block.
@@ -27,7 +26,6 @@ pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
 
 /// The solutions of a block of poses.
 pub(crate) trait BlockSlots<const N: usize, const S: usize> {
-    /// Write the slots as rows.
     fn write(&self, q: &mut [AnswerRow<N, S>; LANES], status: &mut [StatusRow<S>; LANES]);
 
     /// How many slots, the first ones, have solutions. Must be `#[inline(always)]`.

@@ -21,6 +21,13 @@ impl<const D: usize, const W: usize> Directions<D, W> {
         (self.sin[number][lane], self.cos[number][lane]) = (sin, cos);
     }
 
+    #[inline(always)]
+    pub(crate) fn set_lane(&mut self, lane: usize, all: [Direction; D]) {
+        for number in 0..D {
+            self.set(number, lane, all[number]);
+        }
+    }
+
     /// Arc tangents in sequence, independent of one another.
     #[inline(always)]
     pub(crate) fn angles<const FUSED: bool>(&mut self) {
@@ -28,5 +35,14 @@ impl<const D: usize, const W: usize> Directions<D, W> {
         for ((angle, sin), cos) in self.angle.as_flattened_mut().iter_mut().zip(sin).zip(cos) {
             *angle = atan2::<FUSED>(*sin, *cos);
         }
+    }
+
+    #[inline(always)]
+    pub(crate) fn angles_of(&self, lane: usize) -> [f64; D] {
+        let mut angles = [0.0; D];
+        for number in 0..D {
+            angles[number] = self.angle[number][lane];
+        }
+        angles
     }
 }

@@ -20,6 +20,7 @@ use core::fmt::Debug;
 
 use super::end_frames::Frame;
 use crate::kinematics::answer::status::Status;
+use crate::report::Reach;
 
 /// The joint angles and the status of the slots of a pose.
 pub(crate) type AnswerRow<const N: usize, const S: usize> = [[f64; N]; S];
@@ -66,10 +67,14 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     ) -> Option<Self::Regular>;
 }
 
-/// The slots of a regular pose.
 pub(crate) trait RegularPose<const N: usize> {
     /// The joint angles and the flags of a slot; `None` if it has no solution.
     fn slot(&self, slot: usize) -> Option<([f64; N], u8)>;
+
+    /// How far a pose without solutions is out of reach; `None` if the scalar solver decides.
+    fn missed(&self) -> Option<Reach> {
+        None
+    }
 }
 
 /// The angle plus half a turn.

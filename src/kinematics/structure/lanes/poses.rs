@@ -110,9 +110,7 @@ impl Poses {
     pub(crate) fn seen_from_shoulder<const FUSED: bool>(&mut self, seen: Seen) {
         if seen.turns {
             for lane in 0..LANES {
-                let frame = seen.rotated::<FUSED>(&self.frame(lane));
-                self.set_rotation(lane, frame.rotation);
-                self.set_origin(lane, frame.origin);
+                self.set_frame(lane, seen.rotated::<FUSED>(&self.frame(lane)));
             }
         } else {
             for lane in 0..LANES {

@@ -15,6 +15,7 @@ use crate::kinematics::structure::closure::{Candidates, Closure, Six, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{Root, RootBlock, TrigonometricPolynomial};
 use crate::lanes::{Column, LANES, Number as _, Vector, sin_cos_of};
+use crate::report::Reach;
 
 /// How far the upper arm may be from its length for the condition of axis 5 to decide there, relative
 /// to the lengths of the arm [1].
@@ -40,6 +41,15 @@ impl ByRoots for Constants {
 
     fn per_root(&self) -> usize {
         self.lengths.per_root()
+    }
+
+    #[inline(always)]
+    fn is_beyond(&self, last: &Frame) -> bool {
+        self.is_circle_beyond(last)
+    }
+
+    fn reach(&self, last: &Frame) -> Reach {
+        self.missed(last)
     }
 
     #[inline(always)]

@@ -48,7 +48,7 @@ impl Constants {
     }
 
     /// How far the wrist point is from axis 1 aside from its part along axes 2 and 3 (eq. 122).
-    fn aside(&self, across: f64) -> f64 {
+    pub(super) fn aside(&self, across: f64) -> f64 {
         let b = self.lengths.b;
         ((across - b) * (across + b)).max(0.0).sqrt()
     }
@@ -101,7 +101,7 @@ impl Constants {
         let (sigma, [nearest, first, rate]) = (self.aside(across), self.rates(across, radius));
         let distance = (shoulder * sigma - lengths.a1).hypot(h);
         let ends = [distance - rate * radius, distance + rate * radius];
-        let (shortest, longest) = ((upper - forearm).abs(), upper + forearm);
+        let [shortest, longest] = lengths.span();
         if ends[0] > longest + REACH_TOLERANCE || ends[1] < shortest - REACH_TOLERANCE {
             return Some(0);
         }

@@ -19,7 +19,6 @@ pub(crate) struct OffsetWrist {
     pub(super) general: Box<General>,
 }
 
-/// The constants of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Constants {
     pub(super) lengths: Lengths,
@@ -68,6 +67,13 @@ impl Lengths {
     /// How many solutions a root has: one for each side of the shoulder, or one.
     pub(super) fn per_root(&self) -> usize {
         if self.is_square { 2 } else { 1 }
+    }
+
+    /// The shortest and the longest distance that upper arm and forearm span [m].
+    #[inline(always)]
+    pub(super) fn span(&self) -> [f64; 2] {
+        let upper = self.upper.abs();
+        [(upper - self.forearm).abs(), upper + self.forearm]
     }
 }
 

@@ -2,6 +2,9 @@
 //!
 //! Docs: offset_wrist.md, eq. 121. Branch-free arithmetic, which runs in lanes.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::geometry::Lengths;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::Number;
@@ -60,6 +63,12 @@ impl Hand {
     #[inline(always)]
     pub(super) fn middle(&self) -> [f64; 3] {
         self.point[0]
+    }
+
+    /// Half of the height of that circle along axis 1.
+    #[inline(always)]
+    pub(super) fn half_height(&self) -> f64 {
+        self.point[1][2].hypot(self.point[2][2])
     }
 
     /// Broadcast to the lanes of a number.

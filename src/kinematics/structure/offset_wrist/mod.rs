@@ -27,6 +27,8 @@ use geometry::Constants;
 use super::Structure;
 use super::branches::Branches;
 use super::by_roots::{RootKernel, SLOTS};
+use super::closure::Accepted;
+use super::end_frames::Frame;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
 use super::self_motions::{SelfMotions, TakeStep};
@@ -63,7 +65,14 @@ impl Structure<6, SLOTS> for OffsetWrist {
 
     #[inline]
     fn solve(&self, t_first_last: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6, SLOTS> {
-        self.solve_pose(t_first_last, free)
+        let mut accepted = Accepted::new();
+        let last = &Frame::of(t_first_last);
+        let is_certified = self.solutions(last, free, &mut accepted);
+        let mut branches = self.general.slots(&mut accepted, is_certified);
+        if accepted.as_slice().is_empty() {
+            branches.reach = self.constants.missed(last);
+        }
+        branches
     }
 
     /// The determinant has no factors that tell wrist, elbow and shoulder apart.

@@ -7,6 +7,7 @@ mod arms;
 mod attempts;
 mod company;
 mod merged;
+mod reach;
 mod self_motions;
 mod steps;
 mod turns;

@@ -80,13 +80,8 @@ impl Constants {
 
 /// One branch of elbow and wrist: the directions of its angles, NaN if it does not reach.
 pub(super) struct Branch {
-    pub(super) theta_1: Direction,
     /// With theta_2 in 0 ..= pi; the flipped shoulder follows by eq. 64.
-    pub(super) theta_2: Direction,
-    pub(super) theta_3: Direction,
-    pub(super) theta_4: Direction,
-    pub(super) theta_5: Direction,
-    pub(super) theta_6: Direction,
+    pub(super) theta: [Direction; 6],
     pub(super) reached: bool,
     /// Whether the branch is regular (well conditioned).
     pub(super) regular: bool,
@@ -150,12 +145,7 @@ pub(super) fn branch<const FUSED: bool>(
     let [sin_2, _] = theta_2;
     let reached = (m2 >= 0.0) & (aside2 >= 0.0);
     Branch {
-        theta_1,
-        theta_2,
-        theta_3,
-        theta_4: [sin_4, cos_4],
-        theta_5: [sin_5, cos_5],
-        theta_6: [sin_6, cos_6],
+        theta: [theta_1, theta_2, theta_3, [sin_4, cos_4], [sin_5, cos_5], [sin_6, cos_6]],
         reached,
         regular: (m2.abs() >= arm.regular_m2)
             & ((m2 < 0.0) | (aside2.abs() >= arm.regular_aside2))

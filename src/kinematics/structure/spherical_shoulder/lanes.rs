@@ -3,8 +3,8 @@
 use super::branch::{Branch, Constants, branch};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
-    Block, Columns, Directions, FOUND_INSIDE, JointColumn, LaneKernel, Poses, RegularSlots,
-    SlotColumns, half_turn, where_found,
+    Block, Columns, Directions, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
+    half_turn, where_found,
 };
 use crate::kinematics::thresholds::MOST_ANGLE;
 use crate::lanes::{Column, Flags, LANES};
@@ -73,13 +73,14 @@ impl Block<Constants, 7, SLOTS> for ShoulderBlock {
 impl ShoulderBlock {
     #[inline(always)]
     fn put(&mut self, lane: usize, number: usize, branch: &Branch) {
+        let [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6] = branch.theta;
         // The wrists of an elbow share theta_4.
-        self.directions.set(THETA_4 + number / 2, lane, branch.theta_4);
-        self.directions.set(THETA_1 + number, lane, branch.theta_1);
-        self.directions.set(THETA_2 + number, lane, branch.theta_2);
-        self.directions.set(THETA_3 + number, lane, branch.theta_3);
-        self.directions.set(THETA_5 + number, lane, branch.theta_5);
-        self.directions.set(THETA_6 + number, lane, branch.theta_6);
+        self.directions.set(THETA_4 + number / 2, lane, theta_4);
+        self.directions.set(THETA_1 + number, lane, theta_1);
+        self.directions.set(THETA_2 + number, lane, theta_2);
+        self.directions.set(THETA_3 + number, lane, theta_3);
+        self.directions.set(THETA_5 + number, lane, theta_5);
+        self.directions.set(THETA_6 + number, lane, theta_6);
         let status = if branch.reached { FOUND_INSIDE } else { 0 };
         self.slots.status[number][lane] = status;
         self.slots.status[number + BRANCHES][lane] = status;
@@ -115,14 +116,6 @@ impl ShoulderBlock {
 const ELBOW: [f64; BRANCHES] = [1.0, 1.0, -1.0, -1.0];
 const WRIST: [f64; BRANCHES] = [1.0, -1.0, 1.0, -1.0];
 
-/// Columns of the directions of one pose.
-const ONE_THETA_1: usize = 0;
-const ONE_THETA_2: usize = 1;
-const ONE_THETA_3: usize = 2;
-const ONE_THETA_4: usize = 3;
-const ONE_THETA_5: usize = 4;
-const ONE_THETA_6: usize = 5;
-
 impl LaneKernel<7, SLOTS> for Constants {
     const DIFFERENCES: &'static [usize] = &[];
 
@@ -145,12 +138,7 @@ impl LaneKernel<7, SLOTS> for Constants {
             (Directions::<6, BRANCHES>::NEW, [0; BRANCHES], [0; BRANCHES]);
         for lane in 0..BRANCHES {
             let branch = branch::<FUSED>(&constants, &hand, ELBOW[lane], WRIST[lane]);
-            directions.set(ONE_THETA_1, lane, branch.theta_1);
-            directions.set(ONE_THETA_2, lane, branch.theta_2);
-            directions.set(ONE_THETA_3, lane, branch.theta_3);
-            directions.set(ONE_THETA_4, lane, branch.theta_4);
-            directions.set(ONE_THETA_5, lane, branch.theta_5);
-            directions.set(ONE_THETA_6, lane, branch.theta_6);
+            directions.set_lane(lane, branch.theta);
             status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
             regular[lane] = u64::from(branch.regular);
         }
@@ -158,37 +146,26 @@ impl LaneKernel<7, SLOTS> for Constants {
             return None;
         }
         directions.angles::<FUSED>();
-        Some(wrapped(&columns, &directions.angle, status, q7))
-    }
-}
-
-/// Joint angles of the slots, with both shoulders (eq. 64).
-#[inline(always)]
-fn wrapped(
-    columns: &[JointColumn; 7],
-    angle: &[[f64; BRANCHES]; 6],
-    status: [u64; BRANCHES],
-    q7: f64,
-) -> RegularSlots<7, SLOTS> {
-    let mut slots = RegularSlots::NEW;
-    let given = columns[6].limited(q7);
-    for lane in 0..BRANCHES {
-        let flipped = lane + BRANCHES;
-        let (theta_1, theta_2, theta_3) =
-            (angle[ONE_THETA_1][lane], angle[ONE_THETA_2][lane], angle[ONE_THETA_3][lane]);
-        [slots.status[lane], slots.status[flipped]] = [status[lane] & given; 2];
-        slots.wrap(lane, 0, theta_1, columns[0]);
-        slots.wrap(lane, 1, theta_2, columns[1]);
-        slots.wrap(lane, 2, theta_3, columns[2]);
-        slots.wrap(flipped, 0, half_turn(theta_1), columns[0]);
-        slots.wrap(flipped, 1, -theta_2, columns[1]);
-        slots.wrap(flipped, 2, half_turn(theta_3), columns[2]);
-        for slot in [lane, flipped] {
-            slots.wrap(slot, 3, angle[ONE_THETA_4][lane], columns[3]);
-            slots.wrap(slot, 4, angle[ONE_THETA_5][lane], columns[4]);
-            slots.wrap(slot, 5, angle[ONE_THETA_6][lane], columns[5]);
-            slots.q[6][slot] = q7;
+        // With both shoulders (eq. 64).
+        let mut slots = RegularSlots::NEW;
+        let given = columns[6].limited(q7);
+        for lane in 0..BRANCHES {
+            let flipped = lane + BRANCHES;
+            let [theta_1, theta_2, theta_3, theta_4, theta_5, theta_6] = directions.angles_of(lane);
+            [slots.status[lane], slots.status[flipped]] = [status[lane] & given; 2];
+            slots.wrap(lane, 0, theta_1, columns[0]);
+            slots.wrap(lane, 1, theta_2, columns[1]);
+            slots.wrap(lane, 2, theta_3, columns[2]);
+            slots.wrap(flipped, 0, half_turn(theta_1), columns[0]);
+            slots.wrap(flipped, 1, -theta_2, columns[1]);
+            slots.wrap(flipped, 2, half_turn(theta_3), columns[2]);
+            for slot in [lane, flipped] {
+                slots.wrap(slot, 3, theta_4, columns[3]);
+                slots.wrap(slot, 4, theta_5, columns[4]);
+                slots.wrap(slot, 5, theta_6, columns[5]);
+                slots.q[6][slot] = q7;
+            }
         }
+        Some(slots)
     }
-    slots
 }

@@ -73,13 +73,9 @@ impl Constants {
 
 /// One branch of the arm: the directions of its angles, NaN if it does not reach.
 pub(super) struct Branch {
-    pub(super) theta_1: Direction,
-    pub(super) theta_2: Direction,
-    pub(super) theta_23: Direction,
-    pub(super) theta_4: Direction,
-    /// With theta_5 in 0 ..= pi; the flipped wrist follows by eq. 18.
-    pub(super) theta_5: Direction,
-    pub(super) theta_6: Direction,
+    /// theta_1, theta_2, theta_23 and theta_4 to theta_6, with theta_5 in 0 ..= pi; the flipped
+    /// wrist follows by eq. 18.
+    pub(super) theta: [Direction; 6],
     pub(super) reached: bool,
     /// Whether the branch is regular (well conditioned).
     pub(super) regular: bool,
@@ -125,13 +121,9 @@ pub(super) fn branch<const FUSED: bool, const LATERAL: bool>(
     let m22 = mul_add::<FUSED>(n0[2], sin_23, r[2][2] * along);
     let [theta_4, theta_5, theta_6] = zyz_directions::<FUSED>(m0, m1, m22);
     let [sin_5, _] = theta_5;
+    let theta_1 = [sin_1, if reached { cos_1 } else { f64::NAN }];
     Branch {
-        theta_1: [sin_1, if reached { cos_1 } else { f64::NAN }],
-        theta_2: [upper_x, upper_z],
-        theta_23: [sin_23, cos_23],
-        theta_4,
-        theta_5,
-        theta_6,
+        theta: [theta_1, [upper_x, upper_z], [sin_23, cos_23], theta_4, theta_5, theta_6],
         reached,
         regular: (size >= arm.regular_x)
             & (m2.abs() >= arm.regular_m2)

@@ -146,13 +146,15 @@ pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructu
     } else {
         lateral
     };
+    let mut shoulder = rotation_pose(axes(&forward, &side, &up));
+    shoulder.translation.vector = f1.origin;
     Ok(SphericalWrist {
         planar: PlanarArm::new([rows[1].a * f1.x.dot(&forward), a2, b, c2, c3]),
         joint_map: JointMap {
             signs: [sign_1, sign_2, sign_3, sign_4, sign_5, sign_6],
             offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0],
             coupling: 0.0,
-            t_base_shoulder: mdh.base * shoulder_pose(&f1, &forward, &side, &up),
+            t_base_shoulder: mdh.base * shoulder,
             t_wrist_flange: t_wrist_last * mdh.flange,
         },
     })
@@ -164,17 +166,6 @@ fn facing(a1: f64, x: &Vector3<f64>) -> f64 {
         return sign_of(a1);
     }
     [x.x, x.y].into_iter().find(|component| component.abs() > FORM_TOLERANCE).map_or(1.0, sign_of)
-}
-
-fn shoulder_pose(
-    f1: &JointFrame,
-    forward: &Vector3<f64>,
-    side: &Vector3<f64>,
-    up: &Vector3<f64>,
-) -> Pose {
-    let mut pose = rotation_pose(axes(forward, side, up));
-    pose.translation.vector = f1.origin;
-    pose
 }
 
 /// Brandstoetter's parameters of an ortho-parallel basis with a spherical wrist.

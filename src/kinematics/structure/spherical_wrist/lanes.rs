@@ -120,13 +120,14 @@ impl WristBlock {
 
     #[inline(always)]
     fn put(&mut self, lane: usize, number: usize, branch: &Branch) {
+        let [theta_1, theta_2, theta_23, theta_4, theta_5, theta_6] = branch.theta;
         // The elbows of a shoulder share theta_1.
-        self.directions.set(THETA_1 + number / 2, lane, branch.theta_1);
-        self.directions.set(THETA_2 + number, lane, branch.theta_2);
-        self.directions.set(THETA_23 + number, lane, branch.theta_23);
-        self.directions.set(THETA_4 + number, lane, branch.theta_4);
-        self.directions.set(THETA_5 + number, lane, branch.theta_5);
-        self.directions.set(THETA_6 + number, lane, branch.theta_6);
+        self.directions.set(THETA_1 + number / 2, lane, theta_1);
+        self.directions.set(THETA_2 + number, lane, theta_2);
+        self.directions.set(THETA_23 + number, lane, theta_23);
+        self.directions.set(THETA_4 + number, lane, theta_4);
+        self.directions.set(THETA_5 + number, lane, theta_5);
+        self.directions.set(THETA_6 + number, lane, theta_6);
         self.status[0][number][lane] = if branch.reached { FOUND_INSIDE } else { 0 };
         self.regular[lane] &= u64::from(branch.regular);
     }
@@ -244,14 +245,6 @@ impl RegularPose<6> for WristSlots {
 const SHOULDER: [f64; BRANCHES] = [1.0, 1.0, -1.0, -1.0];
 const ELBOW: [f64; BRANCHES] = [1.0, -1.0, 1.0, -1.0];
 
-/// Columns of the directions of one pose.
-const ONE_THETA_1: usize = 0;
-const ONE_THETA_2: usize = 1;
-const ONE_THETA_23: usize = 2;
-const ONE_THETA_4: usize = 3;
-const ONE_THETA_5: usize = 4;
-const ONE_THETA_6: usize = 5;
-
 /// The branches of a pose, one per lane.
 struct OneBranches {
     directions: Directions<6, BRANCHES>,
@@ -266,12 +259,7 @@ impl OneBranches {
         let mut regular = [0; BRANCHES];
         for lane in 0..BRANCHES {
             let branch = branch::<FUSED, LATERAL>(&arm, &frame, SHOULDER[lane], ELBOW[lane]);
-            branches.directions.set(ONE_THETA_1, lane, branch.theta_1);
-            branches.directions.set(ONE_THETA_2, lane, branch.theta_2);
-            branches.directions.set(ONE_THETA_23, lane, branch.theta_23);
-            branches.directions.set(ONE_THETA_4, lane, branch.theta_4);
-            branches.directions.set(ONE_THETA_5, lane, branch.theta_5);
-            branches.directions.set(ONE_THETA_6, lane, branch.theta_6);
+            branches.directions.set_lane(lane, branch.theta);
             branches.status[lane] = if branch.reached { FOUND_INSIDE } else { 0 };
             regular[lane] = u64::from(branch.regular);
         }
@@ -281,18 +269,16 @@ impl OneBranches {
     /// Joint angles of the slots, with both wrists (eq. 18 to 20).
     #[inline(always)]
     fn wrapped<const FUSED: bool>(&self, columns: &Columns<6>) -> WristSlots {
-        let (Columns { joints: columns, uncoupled, linkage, .. }, angle) =
-            (*columns, &self.directions.angle);
+        let Columns { joints: columns, uncoupled, linkage, .. } = *columns;
         let mut slots = WristSlots {
             arm: [[0.0; BRANCHES]; 3],
             wrist: [[[0.0; BRANCHES]; 3]; 2],
             status: [[0; BRANCHES]; 2],
         };
         for lane in 0..BRANCHES {
-            let (theta_2, theta_23) = (angle[ONE_THETA_2][lane], angle[ONE_THETA_23][lane]);
-            let (theta_4, theta_5, theta_6) =
-                (angle[ONE_THETA_4][lane], angle[ONE_THETA_5][lane], angle[ONE_THETA_6][lane]);
-            let (q1, in_1) = columns[0].wrapped(angle[ONE_THETA_1][lane]);
+            let [theta_1, theta_2, theta_23, theta_4, theta_5, theta_6] =
+                self.directions.angles_of(lane);
+            let (q1, in_1) = columns[0].wrapped(theta_1);
             let (q2, in_2) = columns[1].wrapped(theta_2);
             let (q3, in_3) = columns[2].wrapped(mul_add::<FUSED>(-uncoupled, theta_2, theta_23));
             let arm = &mut slots.arm;
@@ -315,7 +301,8 @@ impl OneBranches {
         }
         if let Some(linkage) = linkage {
             for lane in 0..BRANCHES {
-                let left = linkage.left_of(angle[ONE_THETA_23][lane] - angle[ONE_THETA_2][lane]);
+                let [_, theta_2, theta_23, ..] = self.directions.angles_of(lane);
+                let left = linkage.left_of(theta_23 - theta_2);
                 slots.status[0][lane] &= left;
                 slots.status[1][lane] &= left;
             }

@@ -67,7 +67,13 @@ impl SphericalWrist {
             return *q;
         }
         let mut theta = self.theta(q);
-        let n = wrist_rotation(-theta[3], 0.0, 0.0) * self.rotation_in_forearm(rotation, q);
+        let [theta_1, theta_2, theta_3, ..] = theta;
+        let ((sin_1, cos_1), (sin_23, cos_23)) = (theta_1.sin_cos(), (theta_2 + theta_3).sin_cos());
+        let shoulder = Shoulder { sin_1, cos_1, x: 0.0, error: 0.0 };
+        let elbow = Elbow { theta_2, theta_3, sin_23, cos_23 };
+        // The flange's rotation in the forearm frame (eq. 14), turned back by theta_4.
+        let n = forearm_to_flange(&shoulder, &elbow, rotation);
+        let n = wrist_rotation(-theta[3], 0.0, 0.0) * n;
         if locked == LockedWrist::Axis4 {
             theta[4] = n[(0, 2)].atan2(n[(2, 2)]);
         }
@@ -77,14 +83,6 @@ impl SphericalWrist {
         theta[5] = sine.atan2(cosine);
         let [_, _, _, _, q5, q6] = self.joint_map.joints(theta);
         [q[0], q[1], q[2], q[3], q5, q6]
-    }
-
-    /// The flange's rotation in the forearm frame, for the arm angles of `q` (eq. 14).
-    fn rotation_in_forearm(&self, rotation: &Matrix3<f64>, q: &[f64; 6]) -> Matrix3<f64> {
-        let [theta_1, theta_2, theta_3, ..] = self.theta(q);
-        let ((sin_1, cos_1), (sin_23, cos_23)) = (theta_1.sin_cos(), (theta_2 + theta_3).sin_cos());
-        let shoulder = Shoulder { sin_1, cos_1, x: 0.0, error: 0.0 };
-        forearm_to_flange(&shoulder, &Elbow { theta_2, theta_3, sin_23, cos_23 }, rotation)
     }
 }
 

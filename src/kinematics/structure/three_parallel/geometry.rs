@@ -29,7 +29,8 @@ impl ThreeParallel {
     /// x of the wrist in the plane of the arm (eq. 41) [m].
     pub(super) fn x_of_wrist(&self, q: &[f64; 6]) -> f64 {
         let [_, theta_2, theta_3, theta_4, ..] = self.joint_map.theta(q);
-        self.planar.x_of_end(theta_2, theta_3) + self.d5 * (theta_2 + theta_3 + theta_4).sin()
+        let [_, x] = self.planar.elbow_and_end(theta_2.sin_cos(), theta_3.sin_cos());
+        x + self.d5 * (theta_2 + theta_3 + theta_4).sin()
     }
 }
 

@@ -3,8 +3,8 @@
 use super::branch::{Branch, Constants, Facing, branch, facing};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
-    Block, Columns, Directions, FOUND_INSIDE, JointColumn, LaneKernel, Poses, RegularSlots,
-    SlotColumns, half_turn, where_found,
+    Block, Columns, Directions, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
+    half_turn, where_found,
 };
 use crate::lanes::{Column, Flags, LANES, mul_add};
 
@@ -63,7 +63,14 @@ impl Block<Constants, 6, SLOTS> for ParallelBlock {
         self.thetas::<FUSED>(columns.uncoupled);
         self.slots.wrap(&columns.joints);
         if let Some(linkage) = columns.linkage {
-            self.limit(linkage);
+            // The serial joint 3.
+            let angle = &self.directions.angle;
+            for slot in 0..SLOTS {
+                for lane in 0..LANES {
+                    let theta_3 = angle[THETA_23 + slot][lane] - angle[THETA_2 + slot][lane];
+                    self.slots.status[slot][lane] &= linkage.left_of(theta_3);
+                }
+            }
         }
         self.regular
     }
@@ -117,31 +124,11 @@ impl ParallelBlock {
             }
         }
     }
-
-    /// Check the serial joint 3 against the limits of the linkage.
-    #[inline(always)]
-    fn limit(&mut self, linkage: JointColumn) {
-        let angle = &self.directions.angle;
-        for slot in 0..SLOTS {
-            for lane in 0..LANES {
-                let theta_3 = angle[THETA_23 + slot][lane] - angle[THETA_2 + slot][lane];
-                self.slots.status[slot][lane] &= linkage.left_of(theta_3);
-            }
-        }
-    }
 }
 
 const SHOULDER: [f64; SLOTS] = [1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0];
 const ELBOW: [f64; SLOTS] = [1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0];
 const WRIST: [f64; SLOTS] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
-
-/// Columns of the directions of one pose.
-const ONE_THETA_1: usize = 0;
-const ONE_THETA_2: usize = 1;
-const ONE_THETA_23: usize = 2;
-const ONE_PHI: usize = 3;
-const ONE_THETA_5: usize = 4;
-const ONE_THETA_6: usize = 5;
 
 impl LaneKernel<6, SLOTS> for Constants {
     const DIFFERENCES: &'static [usize] = &[2, 3];
@@ -168,12 +155,9 @@ impl LaneKernel<6, SLOTS> for Constants {
         for slot in 0..SLOTS {
             let facing = facing::<FUSED>(&constants, &frame, SHOULDER[slot]);
             let branch = branch::<FUSED>(&constants, &facing, wz, WRIST[slot], ELBOW[slot]);
-            directions.set(ONE_THETA_1, slot, facing.theta_1);
-            directions.set(ONE_THETA_2, slot, branch.theta_2);
-            directions.set(ONE_THETA_23, slot, branch.theta_23);
-            directions.set(ONE_PHI, slot, facing.phi);
-            directions.set(ONE_THETA_5, slot, facing.theta_5);
-            directions.set(ONE_THETA_6, slot, facing.theta_6);
+            let Facing { theta_1, theta_5, theta_6, phi, .. } = facing;
+            directions
+                .set_lane(slot, [theta_1, branch.theta_2, branch.theta_23, phi, theta_5, theta_6]);
             slots.status[slot] = if branch.reached { FOUND_INSIDE } else { 0 };
             regular[slot] = u64::from(branch.regular);
         }
@@ -181,17 +165,15 @@ impl LaneKernel<6, SLOTS> for Constants {
             return None;
         }
         directions.angles::<FUSED>();
-        let angle = &directions.angle;
         for slot in 0..SLOTS {
             let flipped = WRIST[slot] < 0.0;
-            let (theta_2, theta_23) = (angle[ONE_THETA_2][slot], angle[ONE_THETA_23][slot]);
-            let (phi, theta_6) = (angle[ONE_PHI][slot], angle[ONE_THETA_6][slot]);
+            let [theta_1, theta_2, theta_23, phi, theta_5, theta_6] = directions.angles_of(slot);
             let phi = if flipped { half_turn(phi) } else { phi };
-            slots.wrap(slot, 0, angle[ONE_THETA_1][slot], columns[0]);
+            slots.wrap(slot, 0, theta_1, columns[0]);
             slots.wrap(slot, 1, theta_2, columns[1]);
             slots.wrap(slot, 2, mul_add::<FUSED>(-uncoupled, theta_2, theta_23), columns[2]);
             slots.wrap(slot, 3, phi - theta_23, columns[3]);
-            slots.wrap(slot, 4, WRIST[slot] * angle[ONE_THETA_5][slot], columns[4]);
+            slots.wrap(slot, 4, WRIST[slot] * theta_5, columns[4]);
             slots.wrap(slot, 5, if flipped { half_turn(theta_6) } else { theta_6 }, columns[5]);
             if let Some(linkage) = linkage {
                 slots.status[slot] &= linkage.left_of(theta_23 - theta_2);

@@ -24,7 +24,6 @@ pub(super) struct BracketBlock {
 /// Blocks of brackets, at most: for sixteen roots of each of eight polynomials, and one.
 const MOST_BLOCKS: usize = 17;
 
-/// Brackets, at most.
 pub(super) const MOST_BRACKETS: usize = MOST_BLOCKS * LANES;
 
 impl BracketBlock {
@@ -41,7 +40,6 @@ impl BracketBlock {
         }
     }
 
-    /// Put a bracket in a lane.
     #[inline(always)]
     fn put(&mut self, lane: usize, of: usize, [middle, low, high, start, sign]: [f64; 5]) {
         self.of[lane] = of;
@@ -50,7 +48,6 @@ impl BracketBlock {
         self.signs[lane] = sign;
     }
 
-    /// The bracket in a lane.
     #[inline(always)]
     fn bracket(&self, lane: usize) -> (usize, [f64; 5]) {
         let Self { of, middles, lows, highs, starts, signs } = self;

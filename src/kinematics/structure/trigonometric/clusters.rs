@@ -53,7 +53,6 @@ impl Clusters<'_> {
         }
     }
 
-    /// Take a cluster.
     pub(super) fn take(&mut self, part: &Part) {
         match self {
             Self::Kept(roots, _) => roots.push(part.cluster()),

@@ -152,7 +152,6 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Divide a block of parts.
     #[inline(always)]
     fn divide<S: Simd>(
         &mut self,

@@ -25,7 +25,6 @@ impl Part {
         Self { of, noise, arc, low: 0.0, high: 1.0 }
     }
 
-    /// Return its two halves.
     #[inline(always)]
     pub(super) fn halves(&self) -> [Self; 2] {
         let middle = 0.5 * (self.low + self.high);

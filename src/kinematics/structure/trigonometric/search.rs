@@ -139,7 +139,6 @@ impl SimpleRoots {
         }
     }
 
-    /// Append a polynomial.
     pub(crate) fn push(&mut self, polynomial: TrigonometricPolynomial) {
         let is_noise = polynomial.is_noise();
         self.progress.push(if is_noise { Progress::ABANDONED } else { Progress::NEW });

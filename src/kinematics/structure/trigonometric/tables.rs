@@ -229,7 +229,6 @@ const fn chebyshev(n: usize, j: usize) -> f64 {
     sum / binomial(POWERS, j)
 }
 
-/// A binomial coefficient.
 pub(super) const fn binomial(n: usize, k: usize) -> f64 {
     let (mut product, mut i) = (1.0, 0);
     while i < k {
