@@ -37,8 +37,10 @@ def row(name, product):
     out = np.empty(COUNT, bool)
     reach = irbkin.catalog_entry(name).reach
     few, many = irbkin.Cell(around(reach, 10)), irbkin.Cell(around(reach, 100))
+    crowds = [irbkin.Cell(around(reach, count)) for count in (1_000, 10_000)]
     alone = seconds(lambda: irbkin.Cell().collides(robot, q, out)) / COUNT
     boxes = seconds(lambda: few.collides(robot, q, out)) / COUNT
+    crowded = [seconds(lambda own=own: own.collides(robot, q, out)) / COUNT for own in crowds]
     poses = [robot.ik(T) for T in robot.fk(q[:200])]
     pose = seconds(lambda: [it.filter(few) for it in poses]) / len(poses)
     free = q[~many.collides(robot, q)][:500]
@@ -47,6 +49,8 @@ def row(name, product):
     print(
         f"{name}: alone {alone * 1e9:.0f} ns [{alone / product:.2f}], "
         f"10 boxes {boxes * 1e9:.0f} ns [{boxes / product:.2f}], "
+        f"1,000 boxes {crowded[0] * 1e9:.0f} ns [{crowded[0] / product:.2f}], "
+        f"10,000 boxes {crowded[1] * 1e9:.0f} ns [{crowded[1] / product:.2f}], "
         f"solutions of a pose {pose * 1e6:.1f} us [{pose / product:.1f}], "
         f"a move, 100 boxes {move * 1e6:.0f} us [{move / product:.0f}]"
     )

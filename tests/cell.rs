@@ -246,3 +246,63 @@ fn standing_arms_and_pairs_that_may_touch_are_kept() {
     let twice = cell.with_robot("left", &left, &[0.0; 6]).unwrap_err().to_string();
     assert!(twice.contains("name of another"), "{twice}");
 }
+
+/// Obstacles of each kind at random places, more than a meter away mostly.
+fn crowd(rng: &mut Rng, count: usize) -> Vec<(String, Shape)> {
+    let shape = |number: usize, rng: &mut Rng| {
+        let mut pose = pose(rng);
+        pose.translation.vector *= 2.0;
+        match number % 4 {
+            0 => Shape::cuboid([0.02, 0.03, 0.2], &pose),
+            1 => Shape::cylinder(0.01, 0.1, &pose),
+            2 => Shape::sphere(0.02, pose.translation.vector.into()),
+            _ => Shape::points(&[[0.0; 3], [0.1, 0.0, 0.0]], 0.01, &pose),
+        }
+        .unwrap()
+    };
+    let mut all: Vec<_> =
+        (0..count).map(|number| (number.to_string(), shape(number, rng))).collect();
+    // Every tenth is a part of a union.
+    let parts = all.iter().step_by(10).map(|(_, shape)| shape.clone()).collect();
+    all.push(("union".to_owned(), Shape::union(parts).unwrap()));
+    all.push(("floor".to_owned(), Shape::half_space([0.0, 0.0, 1.0], [0.0, 0.0, -1.2]).unwrap()));
+    all
+}
+
+/// The law of a tree over obstacles: a cell of thousands answers as its obstacles by fours.
+#[test]
+fn a_crowded_cell_answers_as_its_obstacles_few_by_few() {
+    let mut rng = Rng::new(72);
+    let arm = Arm::<6>::named("UR5e").unwrap();
+    for count in [50, 400, 10_000] {
+        let obstacles = crowd(&mut rng, count);
+        let crowded = Cell::new(obstacles.clone(), 0.003).unwrap();
+        let few: Vec<_> =
+            obstacles.chunks(3).map(|some| Cell::new(some.to_vec(), 0.003).unwrap()).collect();
+        let (mut touching, mut nears) = (0, 0);
+        for _ in 0..24 {
+            let q = rng.angles::<6>();
+            let touches = few.iter().any(|cell| cell.collides(&arm, &q).unwrap());
+            assert_eq!(crowded.collides(&arm, &q).unwrap(), touches, "{count}: {q:?}");
+            let rows = [q, q.map(|angle| angle + 0.01), q].concat();
+            let mut collides = [false; 3];
+            let batch = &mut irbkin::batch::Batch::new(None);
+            crowded.collides_batch(batch, &arm, &rows, &mut collides).unwrap();
+            assert_eq!([collides[0], collides[2]], [touches; 2], "{count}: {q:?}");
+            let way = [q, q.map(|angle| angle + 0.02)];
+            let is_free = crowded.check_path(&arm, &way).unwrap().is_none();
+            let each = few.iter().all(|cell| cell.check_path(&arm, &way).unwrap().is_none());
+            assert_eq!(is_free, each, "{count}: {q:?}");
+            let found = crowded.nearest(&arm, &q).unwrap().unwrap();
+            let least = few
+                .iter()
+                .map(|cell| cell.nearest(&arm, &q).unwrap().unwrap().distance)
+                .fold(f64::INFINITY, f64::min);
+            assert!((found.distance - least).abs() < 1e-12, "{count}: {found:?} {least}");
+            touching += usize::from(touches);
+            nears += usize::from(matches!(found.near, Near::Obstacle(_)));
+        }
+        println!("{count}: {touching} touch, {nears} are nearest to an obstacle");
+        assert!(nears > 0, "{count}");
+    }
+}

@@ -46,13 +46,15 @@ fn moved<const N: usize>(robot: &Robot<N>, angles: usize, snap: f64) -> f64 {
 
 #[test]
 fn the_published_xarm7_is_accepted_with_the_proposed_snap() {
-    let text = Arm::<7>::from_urdf(XARM7, None, None).unwrap();
+    let text = Arm::<7>::from_urdf_snapped(XARM7, None, None, 0.0).unwrap();
     let reason = text.missing_form().unwrap();
     assert_eq!(reason.snap(), Some(1e-5));
     assert!(reason.to_string().contains("they are 0.000210 deg off"), "{reason}");
     assert!(reason.to_string().ends_with("; snap=1e-5 would take it"), "{reason}");
     let robot = Arm::<7>::from_urdf_snapped(XARM7, None, None, 1e-5).unwrap();
     assert_eq!(robot.structure(), "spherical shoulder");
+    // Its four decimals allow that, too.
+    assert_eq!(Arm::<7>::from_urdf(XARM7, None, None).unwrap().mdh(), robot.mdh());
     // Six right angles are 3.7e-6 rad off.
     let off = farthest(&robot, &text);
     assert!(off > 1e-6 && off <= moved(&robot, 6, 1e-5), "{off:e}");
@@ -71,14 +73,16 @@ fn the_published_xarm7_is_accepted_with_the_proposed_snap() {
 
 #[test]
 fn the_published_puma560_is_accepted_with_the_proposed_snap() {
-    let words = noted(Arm::from_urdf(PUMA560, None, None).map(|arm| arm.robot().clone()));
+    let kept = Arm::from_urdf_snapped(PUMA560, None, None, 0.0).unwrap();
+    let words = noted(Ok::<_, Error>(kept.robot().clone()));
     assert!(words.ends_with("; snap=1e-8 would take it"), "{words}");
     assert!(!words.contains("0.000000"), "{words}");
-    let text = Arm::<6>::serial_chain_from_urdf(PUMA560, None, None).unwrap();
+    let read = Arm::<6>::from_urdf(PUMA560, None, None).unwrap();
+    assert_eq!(read.structure(), "spherical wrist");
     for snap in [1e-8, 1e-5, 1e-3] {
         let robot = Arm::<6>::from_urdf_snapped(PUMA560, None, None, snap).unwrap();
-        assert_eq!(robot.structure(), "spherical wrist");
-        assert!(farthest(&robot, &text) <= moved(&robot, 6, 1e-8));
+        assert_eq!(robot.mdh(), read.mdh());
+        assert!(farthest(&robot, &kept) <= moved(&robot, 6, 1e-8));
         let robot = robot.robot().clone().with_limits(JointLimits::UNLIMITED);
         let mut full = 0;
         for q in poses_of(&robot) {

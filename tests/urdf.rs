@@ -743,8 +743,9 @@ fn damaged_text_never_panics() {
 
 #[test]
 fn nearly_parallel_axes_are_distinguished_from_parallel_ones() {
-    // Nine decimals: 2e-10 off, taken as parallel. Seven: 5e-8 off, the common normal is too far
-    // away. One: two axes like any other.
+    // Nine decimals: 2e-10 off, taken as parallel; seven are within the rounding of their text. Cut
+    // off after seven, they are not: 5e-8 off, the common normal is too far away. One: two axes like
+    // any other.
     let of = |roll: &str| {
         six(
             &third(
@@ -756,9 +757,10 @@ fn nearly_parallel_axes_are_distinguished_from_parallel_ones() {
         )
     };
     assert_eq!(of("3.141592654").unwrap().mdh().rows[2].alpha, PI);
+    assert_eq!(of("3.1415927").unwrap().mdh().rows[2].alpha, PI);
     assert_eq!(
-        refused(of("3.1415927")),
-        "axes 2 and 3 are 4.6e-8 rad off parallel, their common normal is 1.5e7 m away, it must be at most 1e6 m (write the angles with all their digits); snap=1e-7 would take it"
+        refused(of("3.1415926")),
+        "axes 2 and 3 are 5.4e-8 rad off parallel, their common normal is 1.3e7 m away, it must be at most 1e6 m (write the angles with all their digits); snap=1e-7 would take it"
     );
     assert!((of("3.1").unwrap().mdh().rows[2].alpha.abs() - 3.1).abs() < 1e-12);
 }

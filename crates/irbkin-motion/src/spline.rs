@@ -4,6 +4,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use nalgebra::{Matrix2, Vector2};
+
 /// How a cubic spline ends.
 #[derive(Clone, Copy)]
 pub(crate) enum Ends<'a> {
@@ -133,9 +135,6 @@ impl System<'_> {
     }
 }
 
-/// A row of two equations of the derivatives.
-type Block = [[f64; 2]; 2];
-
 /// The pieces of a quintic spline, at rest at both ends, whose first four derivatives are
 /// continuous.
 ///
@@ -150,36 +149,37 @@ pub(crate) fn quintic<const TERMS: usize>(
         points[(piece + 1) * columns + column] - points[piece * columns + column]
     };
     // The elimination of what is left of each inner knot: x = side - factor * x of the next one.
-    let mut factors: Vec<Block> = vec![[[0.0; 2]; 2]; count];
-    let mut states = vec![[0.0; 2]; count * columns];
+    let mut factors = vec![Matrix2::zeros(); count];
+    let mut states = vec![Vector2::zeros(); count * columns];
     for knot in 1..count - 1 {
         let (l, r) = (knots[knot] - knots[knot - 1], knots[knot + 1] - knots[knot]);
         let (l2, r2) = (l * l, r * r);
         let (l3, r3) = (l2 * l, r2 * r);
-        let left = [[-24.0 / l2, -3.0 / l], [-168.0 / l3, -24.0 / l2]];
-        let middle = [
-            [-36.0 / l2 + 36.0 / r2, 9.0 / l + 9.0 / r],
-            [-192.0 / l3 - 192.0 / r3, 36.0 / l2 - 36.0 / r2],
-        ];
-        let right = [[24.0 / r2, -3.0 / r], [-168.0 / r3, 24.0 / r2]];
-        let pivot = inverse(minus(middle, product(left, factors[knot - 1])));
-        factors[knot] = product(pivot, right);
+        let left = Matrix2::new(-24.0 / l2, -3.0 / l, -168.0 / l3, -24.0 / l2);
+        let middle = Matrix2::new(
+            -36.0 / l2 + 36.0 / r2,
+            9.0 / l + 9.0 / r,
+            -192.0 / l3 - 192.0 / r3,
+            36.0 / l2 - 36.0 / r2,
+        );
+        let right = Matrix2::new(24.0 / r2, -3.0 / r, -168.0 / r3, 24.0 / r2);
+        let inverse = (middle - left * factors[knot - 1]).try_inverse();
+        let pivot = inverse.unwrap_or(Matrix2::repeat(f64::NAN));
+        factors[knot] = pivot * right;
         for column in 0..columns {
             let (before, after) = (way(knot - 1, column), way(knot, column));
-            let side = [
+            let side = Vector2::new(
                 60.0 * (after / r3 - before / l3),
                 -360.0 * (after / (r3 * r) + before / (l3 * l)),
-            ];
-            let known = applied(left, states[(knot - 1) * columns + column]);
-            states[knot * columns + column] =
-                applied(pivot, [side[0] - known[0], side[1] - known[1]]);
+            );
+            let known = left * states[(knot - 1) * columns + column];
+            states[knot * columns + column] = pivot * (side - known);
         }
     }
     for knot in (1..count - 1).rev() {
         for column in 0..columns {
-            let next = applied(factors[knot], states[(knot + 1) * columns + column]);
-            let state = &mut states[knot * columns + column];
-            *state = [state[0] - next[0], state[1] - next[1]];
+            let next = factors[knot] * states[(knot + 1) * columns + column];
+            states[knot * columns + column] -= next;
         }
     }
     pieces(knots, columns, |ends, length| {
@@ -218,22 +218,4 @@ fn pieces<const N: usize, const TERMS: usize>(
         }
     }
     pieces
-}
-
-fn product(a: Block, b: Block) -> Block {
-    let element = |row: usize, column: usize| a[row][0] * b[0][column] + a[row][1] * b[1][column];
-    [[element(0, 0), element(0, 1)], [element(1, 0), element(1, 1)]]
-}
-
-fn minus(a: Block, b: Block) -> Block {
-    [[a[0][0] - b[0][0], a[0][1] - b[0][1]], [a[1][0] - b[1][0], a[1][1] - b[1][1]]]
-}
-
-fn inverse([[a, b], [c, d]]: Block) -> Block {
-    let determinant = a * d - b * c;
-    [[d / determinant, -b / determinant], [-c / determinant, a / determinant]]
-}
-
-fn applied(a: Block, x: [f64; 2]) -> [f64; 2] {
-    [a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]]
 }

@@ -76,7 +76,6 @@ impl<const N: usize> PartialEq for Arm<N> {
 }
 
 impl<const N: usize> fmt::Display for Arm<N> {
-    /// As of the robot.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.robot.fmt(f)
     }

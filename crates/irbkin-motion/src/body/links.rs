@@ -98,14 +98,6 @@ impl Body {
         Ok(Self { arm: None, hulls, ..self })
     }
 
-    /// The capsules as hulls too, of links that have hulls.
-    fn hulls_of(&self, more: &[LinkCapsule]) -> Vec<LinkHull> {
-        let has = |link: usize| self.hulls.iter().any(|own| own.link == link);
-        let own = more.iter().filter(|own| has(own.link));
-        own.map(|own| LinkHull { link: own.link, hull: RoundedHull::of_capsule(&own.capsule) })
-            .collect()
-    }
-
     fn empty(source: &'static str) -> Self {
         let source = Cow::Borrowed(source);
         let (links, parts, pairs, excess) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -178,7 +170,12 @@ impl Body {
     /// The body with more capsules: a hose, a dress pack. The parts beside its links stay.
     #[must_use]
     pub fn with_capsules(mut self, more: Vec<LinkCapsule>) -> Self {
-        self.hulls.extend(self.hulls_of(&more));
+        // Links that have hulls have these as hulls, too.
+        for LinkCapsule { link, capsule } in more.iter().copied() {
+            if self.hulls.iter().any(|own| own.link == link) {
+                self.hulls.push(LinkHull { link, hull: RoundedHull::of_capsule(&capsule) });
+            }
+        }
         self.links.extend(more);
         Self { arm: None, ..self }
     }

@@ -12,5 +12,7 @@ mod stored;
 pub(crate) use arms::body_of;
 pub use links::{Body, LinkCapsule, LinkHull};
 pub(crate) use outline::{Centered, Group, Outline};
+pub(crate) use shape::{
+    Bounds, DistanceQuery, SeparatingDirection, Separation, Tree, check_length,
+};
 pub use shape::{Capsule, Cloud, Hull, Mesh, RoundedHull, Shape};
-pub(crate) use shape::{DistanceQuery, SeparatingDirection, Separation, check_length};

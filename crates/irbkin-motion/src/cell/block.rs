@@ -1,11 +1,12 @@
 //! Eight joint vectors, or boxes of joint vectors, at once: which of them touch something.
 
 use alloc::vec::Vec;
+use core::mem::take;
 
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use super::distance_bounds::{ALL, Axis, Point, load, minus};
+use super::distance_bounds::{ALL, Axis, Point, inverse_of, is_beyond_box, load, minus};
 use super::link_motion::Drift;
 use super::obstacles::Cell;
 use super::path::Range;
@@ -42,11 +43,10 @@ pub(super) enum QueryKind {
 }
 
 /// Where everything of an arm is, in eight lanes.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub(crate) struct Block {
-    base: Axes<LANES>,
-    /// The frame of each joint's link.
-    frames: Vec<Axes<LANES>>,
+    /// The frames of the base and of each joint's link.
+    pub(super) frames: Vec<Axes<LANES>>,
     /// How far the joints turn to either side [rad]; zero for joint vectors.
     pub(super) spans: Vec<Column>,
     /// How far they do along a line, and beside it.
@@ -61,6 +61,8 @@ pub(crate) struct Block {
     /// The middles and the halves of the capsules' axes, of the groups that are placed.
     axes: Vec<[[Column; 3]; 2]>,
     is_placed: Vec<bool>,
+    /// Pairs of links, and groups with parts of obstacles, to look at, by their places among all.
+    pub(super) places: Vec<usize>,
     /// What hulls are to decide, by its place among all that is looked at, and the lanes, as bits.
     pub(super) undecided: Vec<(usize, u64)>,
     /// Ways that hulls were apart along, with the numbers of two.
@@ -70,23 +72,8 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    /// Memory for an arm.
     pub(super) fn new<const N: usize>(robot: &Robot<N>, outline: &Outline) -> Self {
-        let mut block = Self {
-            base: Axes::of(robot.base()),
-            frames: Vec::new(),
-            spans: Vec::new(),
-            turns: Vec::new(),
-            beside: Vec::new(),
-            around: Vec::new(),
-            moves: Vec::new(),
-            bends: Vec::new(),
-            axes: Vec::new(),
-            is_placed: Vec::new(),
-            undecided: Vec::new(),
-            directions: Vec::new(),
-            last: 0,
-        };
+        let mut block = Self::default();
         block.fit(robot, outline);
         block
     }
@@ -94,8 +81,9 @@ impl Block {
     /// Take the place of the memory for another arm, of which no answer is left.
     pub(super) fn fit<const N: usize>(&mut self, robot: &Robot<N>, outline: &Outline) {
         let (groups, zero) = (outline.groups.len(), [0.0; LANES]);
-        self.base = Axes::of(robot.base());
-        self.frames.resize(N, self.base);
+        let base = Axes::of(robot.base());
+        self.frames.resize(N + 1, base);
+        self.frames[0] = base;
         for columns in [&mut self.spans, &mut self.turns, &mut self.beside] {
             columns.resize(N, zero);
         }
@@ -110,7 +98,7 @@ impl Block {
 
     /// The place of a group, seen from a link, among `moves` and `bends`.
     pub(super) fn seen(&self, group: usize, from: usize) -> usize {
-        group * self.frames.len() + from
+        group * self.spans.len() + from
     }
 
     /// Which of up to eight joint vectors touch themselves or come nearer to an obstacle than the
@@ -124,7 +112,7 @@ impl Block {
         q: &[[f64; N]],
         looked: Query<'_, N>,
     ) -> u64 {
-        robot.frames(q, &mut self.frames);
+        robot.frames(q, &mut self.frames[1..]);
         let mut has_lines = false;
         if let Query::Swept(ranges) | Query::Roughly(ranges) = looked {
             for (lane, range) in ranges.iter().enumerate() {
@@ -148,7 +136,8 @@ impl Block {
         self.touching_in_frames(outline, cell, q.len(), look, has_lines)
     }
 
-    /// [`Self::touching`] where the frames are.
+    /// [`Self::touching`] where the frames are: without the number of joints, so that the kernel is
+    /// compiled once.
     fn touching_in_frames(
         &mut self,
         outline: &Outline,
@@ -158,25 +147,10 @@ impl Block {
         has_lines: bool,
     ) -> u64 {
         let all = ALL >> (LANES - count);
-        run_vectors(CollisionKernel {
-            block: self,
-            outline,
-            cell,
-            look,
-            has_lines,
-            all,
-            asked: all,
-        })
+        let block = self;
+        run_vectors(CollisionKernel { block, outline, cell, look, has_lines, all, asked: all })
     }
 
-    pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
-        match link.checked_sub(1) {
-            Some(joint) => &self.frames[joint],
-            None => &self.base,
-        }
-    }
-
-    /// A capsule in one lane.
     pub(super) fn capsule(&self, outline: &Outline, index: usize, lane: usize) -> Capsule {
         let [middle, half] = self.axes[index].map(|point| point.map(|component| component[lane]));
         outline.capsules[index].at(middle.into(), half.into())
@@ -211,33 +185,36 @@ impl VectorKernel for CollisionKernel<'_> {
             }
         }
         let (pairs, groups) = (self.outline.pairs.len(), self.outline.groups.len());
-        let all = pairs + groups * self.cell.obstacles().len();
-        // If one is enough, what touched last is looked at first.
-        let mut at = if self.is_enough() && self.block.last < all { self.block.last } else { 0 };
-        let place = at.saturating_sub(pairs);
-        let (mut obstacle, mut group) = (place / groups.max(1), place % groups.max(1));
-        for left in (0..all).rev() {
-            if at < pairs {
-                self.apart_of_links(simd, at);
-            } else {
-                if self.cell.compares(obstacle, self.outline.groups[group].number) {
-                    self.apart_of_obstacle(simd, [group, obstacle], at);
+        // If one is enough, what touched last is looked at first; then links, then each group with
+        // the parts near it. Hulls decide at the end, when capsules have found what they can.
+        let is_last_first =
+            self.is_enough() && self.block.last < pairs + groups * self.cell.part_count();
+        let mut places = take(&mut self.block.places);
+        for round in 0..groups + 2 {
+            places.clear();
+            match round {
+                0 => places.extend(is_last_first.then_some(self.block.last)),
+                1 => places.extend(0..pairs),
+                _ => self.parts_near(simd, round - 2, &mut places),
+            }
+            for at in places.iter().copied() {
+                match at.checked_sub(pairs) {
+                    None => self.apart_of_links(simd, at),
+                    Some(place) => self.apart_of_part(simd, place, at),
                 }
-                (obstacle, group) =
-                    if group + 1 < groups { (obstacle, group + 1) } else { (obstacle + 1, 0) };
+                if self.is_done() {
+                    self.block.last = at;
+                    break;
+                }
             }
             if self.is_done() {
-                self.block.last = at;
                 break;
             }
-            if self.is_enough() && left + 1 == all || left == 0 {
+            if round == 0 || round == groups + 1 {
                 self.decide(simd);
             }
-            at += 1;
-            if at == all {
-                (at, obstacle, group) = (0, 0, 0);
-            }
         }
+        self.block.places = places;
         self.all & !self.asked
     }
 }
@@ -258,18 +235,43 @@ impl CollisionKernel<'_> {
         self.asked == 0 || self.is_enough() && self.asked != self.all
     }
 
+    /// Add the places of a group with the parts of obstacles that are near it.
+    #[inline(always)]
+    fn parts_near<S: Simd>(&self, simd: S, group: usize, places: &mut Vec<usize>) {
+        let Group { around: own, number, .. } = &self.outline.groups[group];
+        // The arm stands on link 0.
+        if *number == 0 {
+            return;
+        }
+        let around = self.around(simd, group);
+        let inverse = Vector::splat(simd, inverse_of(around.square));
+        let limit = self.moved(simd, group, 0) + (self.cell.margin() + ROUNDING + own.radius);
+        let axis = [around.middle, around.half];
+        let (pairs, groups) = (self.outline.pairs.len(), self.outline.groups.len());
+        let place = |part: usize| pairs + groups * part + group;
+        places.extend(self.cell.endless().map(place));
+        self.cell.tree().stops_near(
+            #[inline(always)]
+            |bounds| self.asked & !is_beyond_box(bounds, axis, inverse, limit) != 0,
+            |parts| {
+                places.extend(parts.iter().copied().map(place));
+                false
+            },
+        );
+    }
+
     /// A point of a link's frame.
     #[inline(always)]
     pub(super) fn placed<S: Simd>(&self, simd: S, link: usize, point: &Vector3<f64>) -> Point<S> {
         let turned = self.turned(simd, link, point);
-        let origin = load(simd, &self.block.frame(link).origin);
+        let origin = load(simd, &self.block.frames[link].origin);
         [origin[0] + turned[0], origin[1] + turned[1], origin[2] + turned[2]]
     }
 
     /// A direction of a link's frame.
     #[inline(always)]
     pub(super) fn turned<S: Simd>(&self, simd: S, link: usize, way: &Vector3<f64>) -> Point<S> {
-        let frame = self.block.frame(link);
+        let frame = &self.block.frames[link];
         let (x, y, z) = (load(simd, &frame.x), load(simd, &frame.y), load(simd, &frame.z));
         [
             x[0].scaled_plus(way.x, y[0].scaled_plus(way.y, z[0] * way.z)),
@@ -303,7 +305,7 @@ impl CollisionKernel<'_> {
         let center = load(simd, &self.block.around[group][0]);
         let (mut moved, mut bent) = (Vector::splat(simd, 0.0), Vector::splat(simd, 0.0));
         for joint in (0..*link).rev() {
-            let frame = &self.block.frames[joint];
+            let frame = &self.block.frames[joint + 1];
             let arm = minus(center, load(simd, &frame.origin));
             let around = cross(load(simd, &frame.z), arm);
             let span = Vector::load_array_ref(simd, &self.block.spans[joint]);
@@ -330,7 +332,7 @@ impl CollisionKernel<'_> {
         }
         drift.bent = Vector::load_array_ref(simd, &self.block.bends[self.block.seen(group, from)]);
         for joint in from..*link {
-            let frame = &self.block.frames[joint];
+            let frame = &self.block.frames[joint + 1];
             let turn = Vector::load_array_ref(simd, &self.block.turns[joint]);
             drift.turn(load(simd, &frame.z), load(simd, &frame.origin), turn);
         }

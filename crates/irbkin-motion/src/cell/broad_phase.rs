@@ -4,7 +4,7 @@
 use fearless_simd::prelude::*;
 
 use super::block::{CollisionKernel, QueryKind, ROUNDING, bits};
-use super::distance_bounds::{against_parts, ball_beyond, load};
+use super::distance_bounds::{against_shape, ball_beyond, load};
 use irbkin::internal::lanes::{Number as _, Vector};
 
 impl CollisionKernel<'_> {
@@ -75,16 +75,15 @@ impl CollisionKernel<'_> {
         self.block.undecided.push((at, doubtful));
     }
 
-    /// Look at a group of capsules and an obstacle.
+    /// Look at a group of capsules and a part of an obstacle.
     #[inline(always)]
-    pub(super) fn apart_of_obstacle<S: Simd>(
-        &mut self,
-        simd: S,
-        [group, obstacle]: [usize; 2],
-        at: usize,
-    ) {
-        let own = &self.outline.groups[group];
-        let shape = &self.cell.obstacles()[obstacle].1;
+    pub(super) fn apart_of_part<S: Simd>(&mut self, simd: S, place: usize, at: usize) {
+        let groups = &self.outline.groups;
+        let (part, group) = (place / groups.len(), place % groups.len());
+        let (own, shape) = (&groups[group], self.cell.part(part));
+        if !self.cell.compares(part, own.number) {
+            return;
+        }
         let margin = self.cell.margin() + ROUNDING;
         let moved = self.moved(simd, group, 0) + margin;
         let center = load(simd, &self.block.around[group][0]);
@@ -94,7 +93,7 @@ impl CollisionKernel<'_> {
         }
         let limit = moved + own.around.radius;
         let around = self.around(simd, group);
-        let mut near = near & !against_parts(&around, shape, limit, near).far;
+        let mut near = near & !against_shape(&around, shape, limit, near).far;
         if near == 0 {
             return;
         }
@@ -111,7 +110,7 @@ impl CollisionKernel<'_> {
             let radius = self.outline.capsules[index].radius;
             let axis = self.axis(simd, index);
             let asked = near & self.asked & !doubtful;
-            let decided = against_parts(&axis, shape, moved + radius, asked);
+            let decided = against_shape(&axis, shape, moved + radius, asked);
             let mut asked = asked & !decided.far;
             if self.has_lines && asked != 0 {
                 asked &= !drift.stays_off(shape, &axis, margin + radius);
@@ -119,7 +118,7 @@ impl CollisionKernel<'_> {
             let open = asked & !decided.near;
             doubtful |= asked & decided.near;
             if open != 0 {
-                doubtful |= self.settle_obstacle(open, [index, obstacle], moved);
+                doubtful |= self.settle_obstacle(open, [index, part], moved);
             }
         }
         if doubtful == 0 || self.look == QueryKind::Roughly || !own.has_hulls {
@@ -128,7 +127,7 @@ impl CollisionKernel<'_> {
         }
         for core in own.cores.clone() {
             let limit = moved.like(margin + self.outline.capsules[core].radius);
-            let decided = against_parts(&self.axis(simd, core), shape, limit, doubtful);
+            let decided = against_shape(&self.axis(simd, core), shape, limit, doubtful);
             self.asked &= !(doubtful & decided.near);
         }
         self.block.undecided.push((at, doubtful));
@@ -152,7 +151,7 @@ impl CollisionKernel<'_> {
     fn settle_obstacle<S: Simd>(&self, open: u64, [own, at]: [usize; 2], least: Vector<S>) -> u64 {
         lanes_in(open, |lane| {
             let capsule = self.block.capsule(self.outline, own, lane);
-            self.cell.obstacles()[at].1.is_within(&capsule, least.as_array()[lane])
+            self.cell.part(at).is_within(&capsule, least.as_array()[lane])
         })
     }
 }

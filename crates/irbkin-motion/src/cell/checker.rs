@@ -100,7 +100,6 @@ impl<'a, const N: usize> Checker<'a, N> {
         self.block.touching(self.arm, self.outline, self.cell, q, looked)
     }
 
-    /// Whether one joint vector touches something.
     pub(crate) fn touches(&mut self, q: &[f64; N]) -> bool {
         let (alone, one) = (Cell::default(), core::slice::from_ref(q));
         self.block.touching(self.arm, self.outline, &alone, one, Query::All) != 0
@@ -150,7 +149,6 @@ impl<const N: usize> Standing<'_, N> {
         }
     }
 
-    /// The capsules of a group.
     pub(super) fn capsules_of(&self, group: usize) -> &[Capsule] {
         &self.capsules[self.checker.outline.groups[group].capsules.clone()]
     }

@@ -4,7 +4,7 @@
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use crate::body::{Centered, Shape};
+use crate::body::{Bounds, Centered, Shape};
 use irbkin::Pose;
 use irbkin::internal::lanes::{Column, LANES, Number as _, Vector, dot};
 
@@ -18,7 +18,7 @@ pub(super) struct Axis<S: Simd> {
     /// From the middle to an end.
     pub(super) half: Point<S>,
     /// The square of this [m^2].
-    square: f64,
+    pub(super) square: f64,
 }
 
 /// Lanes, as bits, in which two are certainly farther apart than a limit, and in which they are
@@ -87,6 +87,12 @@ fn gap<S: Simd>(product: Vector<S>, part: Vector<S>) -> Vector<S> {
     product.times_plus(part, product.size())
 }
 
+/// The inverse of the square of the half of an axis; zero for a point.
+#[inline(always)]
+pub(super) fn inverse_of(square: f64) -> f64 {
+    if square > 0.0 { 1.0 / square } else { 0.0 }
+}
+
 impl<S: Simd> Axis<S> {
     #[inline(always)]
     pub(super) fn new(middle: Point<S>, half: Point<S>, square: f64) -> Self {
@@ -97,12 +103,6 @@ impl<S: Simd> Axis<S> {
     #[inline(always)]
     fn of(simd: S, own: &Centered) -> Self {
         Self::new(constant(simd, &own.center), constant(simd, &own.half), own.square)
-    }
-
-    /// The inverse of the square of the length of the half; zero for a point.
-    #[inline(always)]
-    fn inverse(&self) -> f64 {
-        if self.square > 0.0 { 1.0 / self.square } else { 0.0 }
     }
 
     /// Compare the distance from another axis with a limit [m], in the lanes that are asked (eq. 4).
@@ -136,8 +136,8 @@ impl<S: Simd> Axis<S> {
         let (b, c, f) = (dot(one, two), dot(one, between), dot(two, between));
         let across = (-(b * b) + self.square * other.square).max(f64::MIN_POSITIVE);
         let first = clamped((b * f - c * other.square) / across);
-        let second = clamped(b.times_plus(first, f) * other.inverse());
-        let first = clamped(b.times_minus(second, c) * self.inverse());
+        let second = clamped(b.times_plus(first, f) * inverse_of(other.square));
+        let first = clamped(b.times_minus(second, c) * inverse_of(self.square));
         (at(at(between, one, first), two, -second), [first, second])
     }
 
@@ -334,26 +334,35 @@ pub(super) fn ball_beyond<S: Simd>(shape: &Shape, center: Point<S>, limit: Vecto
     dot(way, way).simd_gt(limit * limit).to_bitmask()
 }
 
-/// Compare the distance of an axis from all parts of a shape with a limit [m], in the lanes that are
-/// asked.
+/// Lanes in which an axis is certainly farther from a box along the axes of the world than a limit
+/// [m] (eq. 3). `inverse` is of the square of its half; zero of a point.
 #[inline(always)]
-pub(super) fn against_parts<S: Simd>(
+pub(super) fn is_beyond_box<S: Simd>(
+    bounds: &Bounds,
+    [middle, half]: [Point<S>; 2],
+    inverse: Vector<S>,
+    limit: Vector<S>,
+) -> u64 {
+    let to_center = minus(constant(limit.token(), &bounds.center()), middle);
+    let from = at(middle, half, clamped(dot(to_center, half) * inverse));
+    let (mut nearest, mut way) = (from, from);
+    for axis in 0..3 {
+        nearest[axis] = from[axis].max(bounds.low[axis]).min(bounds.high[axis]);
+        way[axis] = from[axis] - nearest[axis];
+    }
+    let gap = dot(way, minus(middle, nearest)) - dot(way, half).size();
+    let is_far = (gap * gap).simd_gt(limit * limit * dot(way, way));
+    (gap.simd_gt(0.0) & is_far).to_bitmask()
+}
+
+/// Compare the distance of an axis from a shape with a limit [m], in the lanes that are asked.
+#[inline(always)]
+pub(super) fn against_shape<S: Simd>(
     axis: &Axis<S>,
     shape: &Shape,
     limit: Vector<S>,
     asked: u64,
 ) -> Decided {
-    let mut decided = Decided { far: ALL, near: 0 };
-    for part in shape.parts() {
-        let one = against_shape(axis, part, limit, asked);
-        decided = Decided { far: decided.far & one.far, near: decided.near | one.near };
-    }
-    decided
-}
-
-/// Compare the distance of an axis from a shape with a limit [m], in the lanes that are asked.
-#[inline(always)]
-fn against_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
     let simd = limit.token();
     match shape {
         Shape::Capsule(own) => {

@@ -29,7 +29,7 @@ impl<const N: usize> Boxes<N> {
         let outline = &shaped.outline;
         let mut block = Block::new(arm, outline);
         let cell = cell.clone().widened(margin)?;
-        block.reserve(outline.pairs.len() + outline.groups.len() * cell.obstacles().len());
+        block.reserve(outline.pairs.len() + outline.groups.len() * cell.part_count());
         let reach = reach(arm, outline);
         Ok(Self { arm: arm.clone(), shaped, cell, block, reach })
     }
@@ -38,7 +38,6 @@ impl<const N: usize> Boxes<N> {
         &self.cell
     }
 
-    /// The arm in the cell.
     pub(crate) fn checker(&self) -> Result<Checker<'_, N>, Error> {
         self.cell.checker(&self.arm)
     }
@@ -73,7 +72,7 @@ impl<const N: usize> Boxes<N> {
             return Some((link, Other::Link(other)));
         }
         let place = place - pairs.len();
-        let obstacle = Other::Obstacle(place / groups.len());
+        let obstacle = Other::Obstacle(self.cell.obstacle_of(place / groups.len()));
         Some((groups[place % groups.len()].number, obstacle))
     }
 }

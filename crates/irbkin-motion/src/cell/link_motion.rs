@@ -60,14 +60,10 @@ impl<S: Simd> Drift<S> {
     /// The lanes in which an axis of the group stays farther from a shape than a limit [m].
     #[inline(always)]
     pub(super) fn stays_off(&self, shape: &Shape, axis: &Axis<S>, limit: f64) -> u64 {
-        let mut off = u64::MAX;
-        for part in shape.parts() {
-            off &= match plane_to(part, axis) {
-                Some(plane) => self.stays_beyond(&plane, axis, limit),
-                None => 0,
-            };
+        match plane_to(shape, axis) {
+            Some(plane) => self.stays_beyond(&plane, axis, limit),
+            None => 0,
         }
-        off
     }
 }
 

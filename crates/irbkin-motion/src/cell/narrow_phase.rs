@@ -26,6 +26,7 @@ impl Block {
     /// Make room for all places that may be undecided, so that none is made later.
     pub(super) fn reserve(&mut self, places: usize) {
         self.undecided.reserve(places);
+        self.places.reserve(places + 1);
         self.directions.resize(DIRECTIONS, (0, None));
     }
 }
@@ -109,7 +110,7 @@ impl CollisionKernel<'_> {
     #[inline(always)]
     fn decide_obstacle<S: Simd>(&mut self, simd: S, at: usize, place: usize, lanes: u64) {
         let groups = &self.outline.groups;
-        let (group, shape) = (place % groups.len(), &self.cell.obstacles()[place / groups.len()].1);
+        let (group, shape) = (place % groups.len(), self.cell.part(place / groups.len()));
         let (own, least) = (&groups[group], ROUNDING + self.cell.margin());
         let limits = &array::from_fn(|lane| least + self.hulls_moved(group, 0, lane));
         let limit = Vector::load_array_ref(simd, limits);
@@ -181,7 +182,7 @@ impl CollisionKernel<'_> {
         asked: DistanceQuery,
         way: &mut SeparatingDirection,
     ) -> f64 {
-        let pose = |link| self.block.frame(link).pose(lane);
+        let pose = |link: usize| self.block.frames[link].pose(lane);
         let apart = match two.other {
             Counterpart::Hull(link, hull) => {
                 two.hull.separation(&pose(two.link), (hull, &pose(link)), asked, way)
@@ -207,17 +208,23 @@ impl CollisionKernel<'_> {
 
     /// The lanes in which the first one of two is farther beyond a plane than they may be, or stays
     /// beyond it.
-    #[inline(always)]
     fn beyond<S: Simd>(&self, simd: S, two: &HullPair<'_, S>, plane: &Plane<S>) -> u64 {
-        let back = [-plane.way[0], -plane.way[1], -plane.way[2]];
-        let gap = -self.reach(simd, two.link, two.hull, back) - plane.reach;
-        let (limit, radius) = (Vector::load_array_ref(simd, two.limits), two.hull.radius());
-        let beyond = plane.is_below(gap, limit + radius);
-        if self.has_lines {
-            beyond | two.drift.leaves(plane, gap, two.least + radius)
-        } else {
-            beyond
-        }
+        // A function of its own for each instruction set: it is long.
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let back = [-plane.way[0], -plane.way[1], -plane.way[2]];
+                let gap = -self.reach(simd, two.link, two.hull, back) - plane.reach;
+                let radius = two.hull.radius();
+                let limit = Vector::load_array_ref(simd, two.limits);
+                let beyond = plane.is_below(gap, limit + radius);
+                if self.has_lines {
+                    beyond | two.drift.leaves(plane, gap, two.least + radius)
+                } else {
+                    beyond
+                }
+            },
+        )
     }
 
     /// The plane across a way beyond which a hull of a link does not go.
@@ -239,7 +246,7 @@ impl CollisionKernel<'_> {
     /// How far the points of a hull of a link reach along ways, times their lengths.
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, link: usize, hull: &RoundedHull, way: Point<S>) -> Vector<S> {
-        let frame = self.block.frame(link);
+        let frame = &self.block.frames[link];
         let (x, y, z) = (load(simd, &frame.x), load(simd, &frame.y), load(simd, &frame.z));
         let own = [dot(way, x), dot(way, y), dot(way, z)];
         dot(way, load(simd, &frame.origin)) + hull.reach(simd, &own)

@@ -4,11 +4,13 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::arm::Arm;
 use crate::body::fault::BodyFault;
-use crate::body::{Shape, check_length};
+use crate::body::{Shape, Tree, check_length};
 use crate::error::Error;
+use irbkin::Interrupt;
 use irbkin::internal::check_seed;
 
 /// The last link of the longest arm.
@@ -18,10 +20,57 @@ const LAST_LINK: usize = 8;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cell {
-    obstacles: Vec<(String, Shape)>,
+    obstacles: Obstacles,
     margin: f64,
     /// The links that an obstacle is not compared with, as bits, by its place.
     may_touch: Vec<u16>,
+}
+
+/// Obstacles, and the parts that they consist of.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "Vec<(String, Shape)>", into = "Vec<(String, Shape)>")
+)]
+struct Obstacles {
+    all: Vec<(String, Shape)>,
+    /// The place of each part's obstacle, and its place there; parts with an end first.
+    parts: Vec<[usize; 2]>,
+    /// The places among the parts of those without an end: half spaces.
+    endless: Range<usize>,
+    /// The others.
+    tree: Tree,
+}
+
+impl From<Vec<(String, Shape)>> for Obstacles {
+    fn from(all: Vec<(String, Shape)>) -> Self {
+        let mut parts = Vec::new();
+        let mut boxes = Vec::new();
+        let mut endless = Vec::new();
+        for (obstacle, (_, shape)) in all.iter().enumerate() {
+            for (part, shape) in shape.parts().iter().enumerate() {
+                match shape.bounds() {
+                    Some(bounds) => {
+                        parts.push([obstacle, part]);
+                        boxes.push(bounds);
+                    }
+                    None => endless.push([obstacle, part]),
+                }
+            }
+        }
+        let places = parts.len()..parts.len() + endless.len();
+        parts.append(&mut endless);
+        // Nothing interrupts it.
+        let tree = Tree::new(&boxes, Interrupt::none()).unwrap_or_default();
+        Self { all, parts, endless: places, tree }
+    }
+}
+
+impl From<Obstacles> for Vec<(String, Shape)> {
+    fn from(obstacles: Obstacles) -> Self {
+        obstacles.all
+    }
 }
 
 impl Cell {
@@ -37,7 +86,7 @@ impl Cell {
         if let Some(index) = obstacles.iter().position(|(name, _)| !names.insert(name)) {
             return Err(BodyFault::TwoNames { index }.into());
         }
-        Ok(Self { obstacles, margin, may_touch: Vec::new() })
+        Ok(Self { obstacles: obstacles.into(), margin, may_touch: Vec::new() })
     }
 
     /// The cell with so much more margin [m].
@@ -49,7 +98,33 @@ impl Cell {
     /// The obstacles, with their names.
     #[must_use]
     pub fn obstacles(&self) -> &[(String, Shape)] {
-        &self.obstacles
+        &self.obstacles.all
+    }
+
+    /// How many parts the obstacles consist of.
+    pub(super) fn part_count(&self) -> usize {
+        self.obstacles.parts.len()
+    }
+
+    /// A part of an obstacle.
+    pub(super) fn part(&self, place: usize) -> &Shape {
+        let [obstacle, part] = self.obstacles.parts[place];
+        &self.obstacles.all[obstacle].1.parts()[part]
+    }
+
+    /// The obstacle that a part is of, by its place.
+    pub(super) fn obstacle_of(&self, part: usize) -> usize {
+        self.obstacles.parts[part][0]
+    }
+
+    /// The parts without an end, by their places.
+    pub(super) fn endless(&self) -> Range<usize> {
+        self.obstacles.endless.clone()
+    }
+
+    /// The tree of the other parts, by their places.
+    pub(super) fn tree(&self) -> &Tree {
+        &self.obstacles.tree
     }
 
     /// How far the arm is to stay from the obstacles [m].
@@ -69,13 +144,14 @@ impl Cell {
         if pairs.is_empty() {
             return Ok(self);
         }
-        let names = self.obstacles.iter().map(|(name, _)| &**name).zip(0..);
+        let names = self.obstacles.all.iter().map(|(name, _)| &**name).zip(0..);
         let places: BTreeMap<&str, usize> = names.collect();
-        self.may_touch.resize(self.obstacles.len(), 0);
+        self.may_touch.resize(self.obstacles.all.len(), 0);
         for (name, link) in pairs {
             let name = name.as_ref();
             let Some(&obstacle) = places.get(name) else {
-                let existing = self.obstacles.iter().map(|(own, _)| format!("{own:?}")).collect();
+                let existing =
+                    self.obstacles.all.iter().map(|(own, _)| format!("{own:?}")).collect();
                 return Err(BodyFault::NoObstacle { name: name.to_string(), existing }.into());
             };
             if !(1..=LAST_LINK).contains(link) {
@@ -88,7 +164,7 @@ impl Cell {
 
     /// The obstacles, by their names, and the links that are not compared with them.
     pub fn may_touch(&self) -> impl Iterator<Item = (&str, usize)> {
-        let named = self.obstacles.iter().zip(&self.may_touch);
+        let named = self.obstacles.all.iter().zip(&self.may_touch);
         named.flat_map(|((name, _), links)| {
             let links = (1..=LAST_LINK).filter(move |link| links >> link & 1 == 1);
             links.map(move |link| (&**name, link))
@@ -121,13 +197,13 @@ impl Cell {
                 links.push((format!("{name}, link {link}"), Shape::union(shapes)?));
             }
         }
-        let obstacles = [self.obstacles, links].concat();
+        let obstacles = [self.obstacles.all, links].concat();
         Ok(Self { may_touch: self.may_touch, ..Self::new(obstacles, self.margin)? })
     }
 
-    /// Whether a link is compared with an obstacle, by its place: not the one on which the arm
-    /// stands.
-    pub(super) fn compares(&self, obstacle: usize, link: usize) -> bool {
-        link > 0 && self.may_touch.get(obstacle).is_none_or(|links| links >> link & 1 == 0)
+    /// Whether a link is compared with a part of an obstacle: not the one on which the arm stands.
+    pub(super) fn compares(&self, part: usize, link: usize) -> bool {
+        let links = self.may_touch.get(self.obstacle_of(part));
+        link > 0 && links.is_none_or(|links| links >> link & 1 == 0)
     }
 }

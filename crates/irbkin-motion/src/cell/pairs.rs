@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::checker::{Checker, Standing};
-use crate::body::Separation;
+use crate::body::{Bounds, Separation};
 
 /// By how much distances are below the true ones at most, and more [m].
 const BELOW: f64 = 1e-6;
@@ -27,22 +27,28 @@ pub enum Other {
 }
 
 impl<const N: usize> Checker<'_, N> {
-    /// All that is compared.
-    pub(super) fn pairs(&self) -> impl Iterator<Item = Pair> {
-        let outline = self.outline;
-        let of_links = outline.pairs.iter().map(|places| {
-            let [link, other] = places.map(|group| outline.groups[group].number);
+    fn of_links(&self) -> impl Iterator<Item = Pair> {
+        self.outline.pairs.iter().map(|places| {
+            let [link, other] = places.map(|group| self.outline.groups[group].number);
             Pair { link, other: Other::Link(other), places: *places }
-        });
-        let around = (0..self.cell.obstacles().len()).flat_map(move |at| {
-            let groups = outline.groups.iter().enumerate();
-            let groups = groups.filter(move |(_, group)| self.cell.compares(at, group.number));
-            groups.map(move |(place, group)| {
-                let (link, other) = (group.number, Other::Obstacle(at));
-                Pair { link, other, places: [place, at] }
-            })
-        });
-        of_links.chain(around)
+        })
+    }
+
+    /// A group and a part of an obstacle, if they are compared.
+    fn of_part(&self, group: usize, part: usize) -> Option<Pair> {
+        let (link, other) = (self.outline.groups[group].number, self.cell.obstacle_of(part));
+        let pair = Pair { link, other: Other::Obstacle(other), places: [group, part] };
+        self.cell.compares(part, link).then_some(pair)
+    }
+
+    /// All pairs of a pair's link and other.
+    pub(super) fn like(&self, one: &Pair) -> Vec<Pair> {
+        let of_parts = (0..self.cell.part_count())
+            .filter(|part| one.other == Other::Obstacle(self.cell.obstacle_of(*part)))
+            .flat_map(|part| (0..self.outline.groups.len()).map(move |group| [group, part]))
+            .filter_map(|[group, part]| self.of_part(group, part));
+        let all = self.of_links().chain(of_parts);
+        all.filter(|pair| pair.link == one.link && pair.other == one.other).collect()
     }
 
     /// How far the capsules of a pair are apart.
@@ -51,7 +57,7 @@ impl<const N: usize> Checker<'_, N> {
         let each = at.capsules_of(own).iter().flat_map(|one| {
             let (links, obstacle) = match pair.other {
                 Other::Link(_) => (at.capsules_of(other), None),
-                Other::Obstacle(at) => (&[][..], Some(&self.cell.obstacles()[at].1)),
+                Other::Obstacle(_) => (&[][..], Some(self.cell.part(other))),
             };
             let links = links.iter().map(|two| one.separation(two));
             links.chain(obstacle.map(|shape| shape.separation(one)))
@@ -75,13 +81,12 @@ impl<const N: usize> Checker<'_, N> {
                 own.separation(&pose, (other, &at.pose(other)))
             }
             Other::Obstacle(_) if !own.has_hulls => return coarse,
-            Other::Obstacle(at) => own.separation_of(&pose, &self.cell.obstacles()[at].1),
+            Other::Obstacle(_) => own.separation_of(&pose, self.cell.part(pair.places[1])),
         };
         let touch = apart.points[0] == apart.points[1];
         if touch || apart.distance < coarse.distance { coarse } else { apart }
     }
 
-    /// How far a pair is apart.
     pub(super) fn separation(&self, pair: &Pair, at: &Standing<'_, N>) -> Separation {
         self.fine(pair, at, self.coarse(pair, at))
     }
@@ -94,53 +99,69 @@ impl<const N: usize> Checker<'_, N> {
         }
     }
 
-    /// Less than the distance of a pair [m], by the balls around the two; nothing if these touch.
-    fn bound(&self, pair: &Pair, at: &Standing<'_, N>) -> f64 {
-        let (center, radius) = at.balls[pair.places[0]];
-        let apart = match pair.other {
-            Other::Link(_) => Some(at.balls[pair.places[1]]),
-            Other::Obstacle(at) => self.cell.obstacles()[at].1.ball(),
-        };
-        let apart = apart.map_or(0.0, |(other, more)| (other - center).norm() - radius - more);
-        if apart > BELOW { apart - BELOW } else { f64::NEG_INFINITY }
-    }
-
-    /// The pair of which some measure of its distance is least, by bounds first. Of several that
-    /// are, the one whose capsules are nearest.
-    pub(super) fn least(
-        &self,
-        q: &[f64; N],
-        measure: impl Fn(Other, &Separation) -> f64,
-    ) -> Option<(Pair, Separation)> {
+    /// The pair that is nearest, where an obstacle counts as nearer than it is by a margin [m]: by
+    /// bounds first. Of several that are, the one whose capsules are nearest.
+    pub(super) fn nearest_pair(&self, q: &[f64; N], margin: f64) -> Option<(Pair, Separation)> {
         let at = self.at(q);
-        let bounded = self.pairs().enumerate().map(|(place, pair)| {
-            let apart = Separation { distance: self.bound(&pair, &at), ..Separation::NOTHING };
-            (measure(pair.other, &apart), place, pair)
+        let mut best = Best { least: (f64::INFINITY, f64::INFINITY, [usize::MAX; 2]), found: None };
+        let bounded = self.of_links().map(|pair| {
+            let [one, other] = pair.places.map(|group| at.balls[group]);
+            (below((one.0 - other.0).norm() - one.1 - other.1), pair)
         });
         let mut bounded: Vec<_> = bounded.collect();
-        bounded.sort_unstable_by(|(one, ..), (two, ..)| one.total_cmp(two));
-        let (mut least, mut best) = ((f64::INFINITY, f64::INFINITY, usize::MAX), None);
-        for (bound, place, pair) in bounded {
-            if bound > least.0 {
-                break;
-            }
-            let apart = self.coarse(&pair, &at);
-            let coarse = measure(pair.other, &apart);
-            if coarse > least.0 {
-                continue;
-            }
-            let apart = self.fine(&pair, &at, apart);
-            let own = (measure(pair.other, &apart), coarse, place);
-            if own < least {
-                (least, best) = (own, Some((pair, apart)));
+        bounded.sort_by(|(one, _), (two, _)| one.total_cmp(two));
+        for (bound, pair) in bounded {
+            if bound <= best.least.0 {
+                self.take(&mut best, pair, &at, 0.0);
             }
         }
-        best
+        for (group, (center, radius)) in at.balls.iter().enumerate() {
+            if self.outline.groups[group].number == 0 {
+                continue;
+            }
+            let mut take = |part: usize| {
+                if let Some(pair) = self.of_part(group, part) {
+                    self.take(&mut best, pair, &at, margin);
+                }
+                // Others that are as near are looked at, too.
+                best.least.0.next_up()
+            };
+            let most = self.cell.endless().fold(f64::INFINITY, |_, part| take(part));
+            let bound = |bounds: &Bounds| below(bounds.distance(center) - radius) - margin;
+            self.cell.tree().search(most, bound, take);
+        }
+        best.found
+    }
+
+    /// Take a pair if it is nearer than the best.
+    fn take(&self, best: &mut Best, pair: Pair, at: &Standing<'_, N>, margin: f64) {
+        let apart = self.coarse(&pair, at);
+        let coarse = apart.distance - margin;
+        if coarse > best.least.0 {
+            return;
+        }
+        let apart = self.fine(&pair, at, apart);
+        let [group, other] = pair.places;
+        let own = (apart.distance - margin, coarse, [other, group]);
+        if own < best.least {
+            *best = Best { least: own, found: Some((pair, apart)) };
+        }
     }
 
     /// The pair that is deepest in each other or in the margin; if nothing touches, the pair that is
     /// next to it.
     pub(super) fn deepest(&self, q: &[f64; N]) -> Option<(Pair, Separation)> {
-        self.least(q, |other, apart| -self.depth(other, apart))
+        self.nearest_pair(q, self.cell.margin())
     }
+}
+
+/// The nearest pair so far: its distance, that of its capsules, and its place.
+struct Best {
+    least: (f64, f64, [usize; 2]),
+    found: Option<(Pair, Separation)>,
+}
+
+/// Less than a distance of balls [m]; nothing if they touch.
+fn below(distance: f64) -> f64 {
+    if distance > BELOW { distance - BELOW } else { f64::NEG_INFINITY }
 }

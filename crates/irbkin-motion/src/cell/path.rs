@@ -211,6 +211,7 @@ impl<const N: usize> Checker<'_, N> {
         let q = motion.range(piece, part).middle;
         let (first, apart) = self.deepest(&q)?;
         let mut depth = self.depth(first.other, &apart);
+        let pairs = self.like(&first);
         for sample in 1..=MOST_SAMPLES {
             // Evenly over this piece, then at the ends of the others.
             let (later, at) = match sample.checked_sub(SAMPLES) {
@@ -221,10 +222,8 @@ impl<const N: usize> Checker<'_, N> {
                 break;
             }
             let standing = self.at(&motion.range(later, [at; 2]).middle);
-            let pairs = self.pairs();
-            let of_two = pairs.filter(|pair| pair.link == first.link && pair.other == first.other);
             let depths =
-                of_two.map(|pair| self.depth(pair.other, &self.separation(&pair, &standing)));
+                pairs.iter().map(|pair| self.depth(pair.other, &self.separation(pair, &standing)));
             let own = depths.fold(f64::NEG_INFINITY, f64::max);
             depth = depth.max(own);
             if own <= 0.0 && sample >= SAMPLES {

@@ -52,7 +52,6 @@ pub struct Nearest {
     pub points: [[f64; 3]; 2],
 }
 
-/// One question about one arm, with memory of its own: [`Cell::checker`] serves many.
 impl Nearest {
     /// How the distance changes with each joint [m/rad], at the joint angles that it was found at:
     /// the speed at which the two points come apart along the line between them. NaN where they are
@@ -168,7 +167,7 @@ impl<const N: usize> Checker<'_, N> {
     /// As [`Self::collides`].
     pub fn nearest(&self, q: &[f64; N]) -> Result<Option<Nearest>, Error> {
         check_seed("q", q)?;
-        let least = self.least(q, |_, apart| apart.distance);
+        let least = self.nearest_pair(q, 0.0);
         Ok(least.map(|(pair, apart)| self.named(pair, &apart)))
     }
 

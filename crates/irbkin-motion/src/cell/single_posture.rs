@@ -6,7 +6,7 @@
 use fearless_simd::prelude::*;
 
 use super::block::{Block, ROUNDING, bits};
-use super::distance_bounds::{ball_beyond, load};
+use super::distance_bounds::{ALL, Point, ball_beyond, inverse_of, is_beyond_box, load};
 use super::obstacles::Cell;
 use crate::body::{Centered, DistanceQuery, Group, Outline};
 use irbkin::internal::lanes::{LANES, Vector, VectorKernel, run_vectors};
@@ -33,19 +33,32 @@ impl VectorKernel for PostureKernel<'_> {
         for (groups, around) in
             self.outline.groups.chunks(LANES).zip(self.block.around.chunks(LANES))
         {
-            let (mut centers, mut limits) = ([[0.0; LANES]; 3], [0.0; LANES]);
+            let [mut middles, mut halves] = [[[0.0; LANES]; 3]; 2];
+            let [mut inverses, mut radii, mut balls] = [[0.0; LANES]; 3];
             for lane in 0..groups.len() {
-                let [center, _] = &around[lane];
-                (centers[0][lane], centers[1][lane], centers[2][lane]) =
-                    (center[0][0], center[1][0], center[2][0]);
-                limits[lane] = self.limit + groups[lane].around.ball;
-            }
-            let (centers, limits) = (load(simd, &centers), Vector::load_array_ref(simd, &limits));
-            for at in 0..self.cell.obstacles().len() {
-                let far = ball_beyond(&self.cell.obstacles()[at].1, centers, limits);
-                if self.touches(groups, at, !far) {
-                    return true;
+                let [middle, half] = &around[lane];
+                for axis in 0..3 {
+                    middles[axis][lane] = middle[axis][0];
+                    halves[axis][lane] = half[axis][0];
                 }
+                let own = &groups[lane].around;
+                inverses[lane] = inverse_of(own.square);
+                radii[lane] = self.limit + own.radius;
+                balls[lane] = self.limit + own.ball;
+            }
+            let [centers, halves] = [&middles, &halves].map(|columns| load(simd, columns));
+            let [inverses, reaches, limits] =
+                [&inverses, &radii, &balls].map(|column| Vector::load_array_ref(simd, column));
+            let axes = [centers, halves];
+            let is_touched = self.any_touches(groups, self.cell.endless(), centers, limits)
+                || self.cell.tree().stops_near(
+                    #[inline(always)]
+                    |bounds| is_beyond_box(bounds, axes, inverses, reaches) != ALL,
+                    #[inline(always)]
+                    |parts| self.any_touches(groups, parts.iter().copied(), centers, limits),
+                );
+            if is_touched {
+                return true;
             }
         }
         false
@@ -53,14 +66,32 @@ impl VectorKernel for PostureKernel<'_> {
 }
 
 impl PostureKernel<'_> {
-    /// Whether any of the groups that are near an obstacle, as bits, touches it.
-    fn touches(&self, groups: &[Group], obstacle: usize, near: u64) -> bool {
-        let shape = &self.cell.obstacles()[obstacle].1;
+    /// Whether any of the groups, which have these balls in the lanes, touches any of some parts.
+    #[inline(always)]
+    fn any_touches<S: Simd>(
+        &self,
+        groups: &[Group],
+        parts: impl Iterator<Item = usize>,
+        centers: Point<S>,
+        limits: Vector<S>,
+    ) -> bool {
+        for part in parts {
+            let near = !ball_beyond(self.cell.part(part), centers, limits);
+            if near & ALL != 0 && self.touches(groups, part, near) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether any of the groups that are near a part of an obstacle, as bits, touches it.
+    fn touches(&self, groups: &[Group], part: usize, near: u64) -> bool {
+        let shape = self.cell.part(part);
         bits(near).filter_map(|lane| groups.get(lane)).any(|group| {
-            if !self.cell.compares(obstacle, group.number) {
+            if !self.cell.compares(part, group.number) {
                 return false;
             }
-            let pose = self.block.frame(group.link).pose(0);
+            let pose = self.block.frames[group.link].pose(0);
             let is_near = |own: &Centered| {
                 let center = pose.rotation * own.center + pose.translation.vector;
                 shape.is_within(&own.at(center, pose.rotation * own.half), self.limit)

@@ -7,7 +7,6 @@ mod samples;
 mod search;
 mod shorten;
 mod timed;
-mod tree;
 
 pub(crate) use ends::{check_free, inside};
 

@@ -6,7 +6,6 @@ use core::array;
 use core::mem::swap;
 
 use super::samples::Samples;
-use super::tree::Tree;
 use crate::cell::Checker;
 use crate::error::Error;
 use crate::go::fault::GoFault;
@@ -135,4 +134,53 @@ fn blocks(length: f64) -> usize {
 /// The joint vector that is a part of the way from one to another.
 pub(super) fn between<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
     array::from_fn(|joint| from[joint] + part * (to[joint] - from[joint]))
+}
+
+/// Joint vectors with the places of their parents, from each of which the motion to it is free; a
+/// root is its own parent.
+struct Tree<const N: usize> {
+    q: Vec<[f64; N]>,
+    parents: Vec<usize>,
+}
+
+impl<const N: usize> Tree<N> {
+    fn new(roots: Vec<[f64; N]>) -> Self {
+        Self { parents: (0..roots.len()).collect(), q: roots }
+    }
+
+    fn len(&self) -> usize {
+        self.q.len()
+    }
+
+    fn at(&self, node: usize) -> &[f64; N] {
+        &self.q[node]
+    }
+
+    fn add(&mut self, q: [f64; N], parent: usize) -> usize {
+        self.q.push(q);
+        self.parents.push(parent);
+        self.q.len() - 1
+    }
+
+    /// The node that is nearest to a joint vector.
+    fn nearest(&self, to: &[f64; N]) -> usize {
+        let (mut best, mut least) = (0, f64::INFINITY);
+        for (node, q) in self.q.iter().enumerate() {
+            let square = q.iter().zip(to).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+            if square < least {
+                (best, least) = (node, square);
+            }
+        }
+        best
+    }
+
+    /// The joint vectors from a node to its root.
+    fn to_root(&self, mut node: usize) -> Vec<[f64; N]> {
+        let mut path = Vec::from([self.q[node]]);
+        while self.parents[node] != node {
+            node = self.parents[node];
+            path.push(self.q[node]);
+        }
+        path
+    }
 }

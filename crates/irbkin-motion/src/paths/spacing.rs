@@ -7,7 +7,7 @@ use nalgebra::ComplexField as _;
 
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
-use crate::trajectory::check::check_positive;
+use crate::trajectory::check::{check_limit, check_positive};
 
 /// How the poses of a path are spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,11 +39,8 @@ impl Spacing {
     ///
     /// [`Error::InvalidMotion`] unless both are positive and one is finite.
     pub fn step(length: f64, angle: f64) -> Result<Self, Error> {
-        for (field, value) in [("step", length), ("turn", angle)] {
-            if value.is_nan() || value <= 0.0 {
-                return Err(MotionFault::NotPositive { field, index: None, value }.into());
-            }
-        }
+        check_limit("step", None, length)?;
+        check_limit("turn", None, angle)?;
         check_positive("step or turn", length.min(angle))?;
         Ok(Self(Kind::Step { length, angle }))
     }

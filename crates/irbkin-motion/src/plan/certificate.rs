@@ -47,7 +47,6 @@ pub(super) const ARRIVED: f64 = 1e-6;
 /// The motion between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Between {
-    /// A continuous motion.
     Continuous,
     /// A continuous motion that leads elsewhere: to another turn or branch.
     Elsewhere,
@@ -83,16 +82,12 @@ impl<'a> Step<'a> {
         arm.freedom.tool(&self.path_pose(part), &arm.freedom.between(from, to, part))
     }
 
-    fn path_pose(&self, part: f64) -> Pose {
+    /// The pose of the path at a part of the step, without the turn of the tool.
+    pub(super) fn path_pose(&self, part: f64) -> Pose {
         let [from, to] = self.layers;
         let rotation = to.turn.map_or(from.pose.rotation, |turn| turn.at(part));
         let shift = to.pose.translation.vector - from.pose.translation.vector;
         Pose::from_parts(Translation3::from(from.pose.translation.vector + shift * part), rotation)
-    }
-
-    /// The pose half way, without the turn of the tool.
-    pub(super) fn middle(&self) -> Pose {
-        self.path_pose(0.5)
     }
 
     fn size(&self) -> f64 {

@@ -210,7 +210,6 @@ impl Freedom {
         }) && self.tilt(values) <= self.cone + LIMIT_TOLERANCE
     }
 
-    /// The nearest values inside their ranges.
     pub(super) fn clamped(&self, values: &Values) -> Values {
         let mut clamped = *values;
         let shorter = (self.cone / self.tilt(values)).min(1.0);

@@ -131,7 +131,6 @@ impl Grid {
         each.max().unwrap_or_default()
     }
 
-    /// A window of all cells.
     pub(super) fn full_window(&self) -> Window {
         core::array::from_fn(|axis| {
             let others = self.counts[axis] - 1;

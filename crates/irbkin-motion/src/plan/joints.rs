@@ -209,7 +209,6 @@ impl PlannedJoints {
         Some([from, to])
     }
 
-    /// The steps of all joints.
     pub(super) fn steps(&self, from: &[f64; 6], to: &[f64; 6]) -> [f64; 6] {
         core::array::from_fn(|joint| self.step(joint, from[joint], to[joint]).0)
     }
@@ -312,7 +311,6 @@ impl TurnStates {
         self.joints[joint].is_some()
     }
 
-    /// Number of states.
     pub(super) fn len(&self) -> usize {
         self.turns.len()
     }

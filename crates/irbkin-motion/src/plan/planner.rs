@@ -237,7 +237,7 @@ impl<'a> Planner<'a> {
     /// Put a layer half way before a layer.
     fn split(&mut self, layer: usize, nodes: [Node; 2], q: [[f64; 6]; 2]) -> Result<(), Error> {
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
-        let pose = Step::new(&self.grid, [before, after], nodes, q).middle();
+        let pose = Step::new(&self.grid, [before, after], nodes, q).path_pose(0.5);
         let time = 0.5 * (before.time + after.time);
         let mut middle = Layer::new(pose, time, None, &self.grid);
         middle.first = self.arm.freedom.between(&before.first, &after.first, 0.5);

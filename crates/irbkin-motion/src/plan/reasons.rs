@@ -12,8 +12,8 @@ use super::planner::Planner;
 use super::search::SlotReach;
 use crate::error::Error;
 use crate::plan::thresholds::{CROSSING_JUMP, CROSSING_STEP};
+use irbkin::Explanation;
 use irbkin::internal::{largest, nearest_turn};
-use irbkin::{Explanation, SingularityKind};
 
 /// Two nodes of neighboring layers, with the steps of the joints between them [rad].
 type Step = (Node, Node, [f64; 6]);
@@ -92,9 +92,10 @@ impl Planner<'_> {
                 return Ok(StrandReason::Limit { joint: joint + 1, value, bounds });
             }
             let next = after.joints(&self.grid, to).unwrap_or_default();
-            let kinds = self.arm.robot.singularity(&q).kinds
-                | self.arm.robot.singularity(&next).kinds
-                | self.kinds_between(&q, &next);
+            // A jump is next to a singularity: of its ends, or of the angles between them.
+            let middle = core::array::from_fn(|joint| 0.5 * (q[joint] + next[joint]));
+            let kinds = [q, next, middle].map(|q| self.arm.robot.singularity(&q).kinds);
+            let kinds = kinds[0] | kinds[1] | kinds[2];
             return Ok(StrandReason::Jump { joint: joint + 1, by: steps[joint], kinds });
         }
         let at_limit = self.at_limit(&q, &steps);
@@ -116,12 +117,6 @@ impl Planner<'_> {
         let (q, values): (Vec<_>, Vec<_>) = parts.iter().copied().unzip();
         let tests = caller.tests.as_mut();
         tests.map_or(StrandReason::Rejected, |tests| tests.reason(&q, &values))
-    }
-
-    /// The singularity that is next to a jump: the nearest one of the joint angles.
-    fn kinds_between(&self, q: &[f64; 6], next: &[f64; 6]) -> SingularityKind {
-        let middle = core::array::from_fn(|joint| 0.5 * (q[joint] + next[joint]));
-        self.arm.robot.singularity(&middle).kinds
     }
 
     /// Why a branch has no node at a layer.

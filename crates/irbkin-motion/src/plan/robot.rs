@@ -21,7 +21,7 @@ use crate::arm::Arm;
 use crate::error::Error;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::{COARSEST_TOOL_STEP, PLAN_END_OFF};
-use irbkin::internal::{ModelFault, checked_pose};
+use irbkin::internal::checked_pose;
 use irbkin::{Interrupt, Pose, PoseDifference, Robot};
 
 impl Arm<6> {
@@ -87,9 +87,7 @@ pub(super) fn planned(
     caller: &mut Caller<'_>,
 ) -> Result<Plan, PlanError> {
     options.check(path.len())?;
-    if let Some(reason) = robot.unknown_structure() {
-        return Err(Error::from(ModelFault::UnknownStructure(reason)).into());
-    }
+    robot.check_structure()?;
     let path = checked_path(path, options)?;
     let joints = PlannedJoints::of(robot, options.weights);
     let joints = match options.start.or(options.end) {

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_EXTERNAL;
 use crate::trajectory::Retiming;
-use irbkin::internal::{JointFault, ModelFault, at_limit, check_weights};
+use irbkin::internal::{JointFault, at_limit, check_weights};
 use irbkin::{Interrupt, Pose, Robot, Slot};
 
 impl Arm<7> {
@@ -57,9 +57,7 @@ impl Arm<7> {
         accept: Option<&mut Accept<'_, 7>>,
         interrupt: Interrupt<'_>,
     ) -> Result<Plan<7>, PlanError<7>> {
-        if let Some(reason) = self.unknown_structure() {
-            return Err(Error::from(ModelFault::UnknownStructure(reason)).into());
-        }
+        self.check_structure()?;
         let mut tests = Tests::new(self, options, accept)?;
         if self.locked_joint().is_some() {
             return Seven { robot: self, locked: self, is_free: false }

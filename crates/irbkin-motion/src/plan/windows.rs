@@ -10,7 +10,6 @@ use super::options::PlanOrder;
 /// How much wider the next window may be than one that was too narrow.
 const WIDER: usize = 4;
 
-/// The windows of a search.
 #[derive(Clone)]
 pub(super) struct Windows<'a> {
     ladder: Ladder<'a>,

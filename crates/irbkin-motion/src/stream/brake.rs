@@ -1,8 +1,21 @@
-//! The braking motion of one joint, from its last control points to rest, in closed form
-//! (docs/theory/stream.md, eq. 4 to 10).
+//! Bounds of velocity, acceleration and jerk as bounds of the differences of a joint's control
+//! points, and the braking motion from its last control points to rest, in closed form
+//! (docs/theory/stream.md, eq. 2 to 10).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
+
+use super::reason::Bound;
+use crate::trajectory::thresholds::LIMIT_ROUNDING;
+
+/// By how much a difference may exceed its bound, as a part of it [1]: a checked trajectory may
+/// exceed its own by [`LIMIT_ROUNDING`], its second difference may have changed what is left of the
+/// first.
+const ROUNDING: f64 = 2.0 * LIMIT_ROUNDING;
+
+/// Rounding of a third difference, as a part of the control points and a radian [1]: of eight of
+/// them, each given to a few digits of the last place.
+const DIGITS: f64 = 32.0 * f64::EPSILON;
 
 /// Phases of a braking motion: five, and more only where rounding splits one [1].
 const PHASES: usize = 10;
@@ -24,6 +37,46 @@ impl Bounds {
         let third = (jerk * cycle * cycle * cycle).min(2.0 * second);
         Self { first, second, third }
     }
+
+    /// The control point behind `end`, or the bound that it exceeds, its value and the bound
+    /// [rad, s] (eq. 3, 6).
+    pub(super) fn check(&self, end: End, next: f64, cycle: f64) -> Result<End, (Bound, f64, f64)> {
+        let first = next - end.point;
+        let behind = End { point: next, first, second: first - end.first };
+        let digits = digits_of(next.abs().max(end.point.abs()));
+        let left = peak(behind, self.third);
+        let square = cycle * cycle;
+        for (bound, value, limit, unit) in [
+            (Bound::Velocity, first, self.first, cycle),
+            (Bound::Acceleration, behind.second, self.second, square),
+            (Bound::Jerk, behind.second - end.second, self.third, square * cycle),
+            (Bound::VelocityAhead, left, self.first * (1.0 + ROUNDING), cycle),
+        ] {
+            if exceeds(value, limit, digits) {
+                return Err((bound, value / unit, limit / unit));
+            }
+        }
+        Ok(behind)
+    }
+
+    /// The least and the greatest second difference of the next control point; the braking motion's
+    /// is between them.
+    pub(super) fn seconds(&self, end: End) -> [f64; 2] {
+        let ahead = |room: f64| -ramp_to_zero(room.max(0.0), self.third);
+        let low = (-self.second).max(end.second - self.third).max(-ahead(self.first + end.first));
+        let high = self.second.min(end.second + self.third).min(ahead(self.first - end.first));
+        [low, high]
+    }
+}
+
+/// Rounding of a third difference of control points near one [rad].
+pub(super) fn digits_of(point: f64) -> f64 {
+    DIGITS * (1.0 + point.abs())
+}
+
+/// Whether a difference is beyond its bound (eq. 3).
+pub(super) fn exceeds(value: f64, limit: f64, digits: f64) -> bool {
+    value.is_nan() || value.abs() > limit * (1.0 + ROUNDING) + digits
 }
 
 /// The end of the control points of a joint: the last one, and the last differences.
@@ -92,7 +145,6 @@ impl Phase {
     }
 }
 
-/// A braking motion of a joint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Brake {
     phases: [Phase; PHASES],
@@ -103,7 +155,6 @@ pub(super) struct Brake {
     pub(super) stop: f64,
     /// The step after which the joint turns back, and the control point there.
     turn: Option<(f64, f64)>,
-    /// Where it begins.
     from: f64,
 }
 

@@ -252,16 +252,10 @@ impl<const N: usize> Guard<N> {
             (OnViolation::Brake, Some(reason)) if !is_borne => return self.refuse(reason),
             _ => self.toward(&goals),
         };
-        if largest(&steps(&next, reference)) == 0.0 {
-            return match self.admit(&next, LOOKS[0]) {
-                Ok(()) => self.advance(next, State::Following, None),
-                Err(reason) => self.go_less(next, reason),
-            };
-        }
-        let joint = largest_step(&next, reference).0;
-        let reason = refused.unwrap_or(Reason::Arriving { joint });
+        let (joint, step) = largest_step(&next, reference);
+        let reason = (step != 0.0).then(|| refused.unwrap_or(Reason::Arriving { joint }));
         match self.admit(&next, LOOKS[0]) {
-            Ok(()) => self.advance(next, State::Following, Some(reason)),
+            Ok(()) => self.advance(next, State::Following, reason),
             Err(reason) => self.go_less(next, reason),
         }
     }

@@ -22,7 +22,6 @@ pub(super) struct Goal {
     pub(super) is_followed: bool,
 }
 
-/// A joint, its bounds and limits.
 pub(super) struct Limited<'a> {
     pub(super) bounds: &'a Bounds,
     pub(super) end: End,

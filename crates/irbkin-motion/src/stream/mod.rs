@@ -32,7 +32,6 @@
 pub struct GuideBlocks;
 
 mod ahead;
-mod bounds;
 mod brake;
 mod guard;
 mod limit;

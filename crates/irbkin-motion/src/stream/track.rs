@@ -4,8 +4,7 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::bounds::{digits_of, exceeds};
-use super::brake::{Bounds, End};
+use super::brake::{Bounds, End, digits_of, exceeds};
 use super::limit::Goal;
 
 /// Cycles of the window for a misfit of one bound of the third difference (eq. 15).
@@ -28,7 +27,6 @@ const SHARE: f64 = 0.5;
 /// How far beyond the recent references a joint may come to rest, as a part of their range (eq. 17).
 const BEYOND: f64 = 12.0;
 
-/// The references of a joint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Track {
     /// The last one and its differences.
@@ -70,7 +68,6 @@ impl Track {
         self.window <= 1.0
     }
 
-    /// Take the next reference.
     pub(super) fn take(&mut self, point: f64, bounds: &Bounds) {
         let memory = bounds.first / bounds.second + bounds.second / bounds.third + QUIET.1;
         let [low, high] = self.range;

@@ -245,7 +245,6 @@ impl AxisMotion {
         &self.starts[..=self.count]
     }
 
-    /// The coefficients of a piece.
     pub(super) fn terms(&self, piece: usize) -> &[f64; TERMS] {
         &self.terms[piece]
     }

@@ -9,15 +9,19 @@ use irbkin::internal::{JointFault, check_length, check_seed};
 /// Joints of an arm, at least: most of them beyond four turns are in degrees.
 const LEAST_JOINTS: usize = 6;
 
-/// Check that limits are positive; infinity is no limit.
+/// Check that a limit is positive; infinity is no limit.
+pub(crate) fn check_limit(
+    field: &'static str,
+    index: Option<usize>,
+    value: f64,
+) -> Result<(), MotionFault> {
+    if value > 0.0 { Ok(()) } else { Err(MotionFault::NotPositive { field, index, value }) }
+}
+
+/// [`check_limit`] of each of some.
 pub(crate) fn check_limits(field: &'static str, limits: &[f64]) -> Result<(), Error> {
-    match limits.iter().position(|limit| limit.is_nan() || *limit <= 0.0) {
-        None => Ok(()),
-        Some(index) => {
-            let value = limits[index];
-            Err(MotionFault::NotPositive { field, index: Some(index), value }.into())
-        }
-    }
+    let mut all = limits.iter().enumerate();
+    Ok(all.try_for_each(|(index, limit)| check_limit(field, Some(index), *limit))?)
 }
 
 /// Check limits along a path, and return how many joints they are for.
@@ -41,9 +45,7 @@ pub(super) fn check_axes(limits: &[AxisLimits], dof: usize) -> Result<(), Error>
             ("max_acceleration", limits.acceleration),
             ("max_jerk", limits.jerk),
         ] {
-            if value.is_nan() || value <= 0.0 {
-                return Err(MotionFault::NotPositive { field, index: Some(joint), value }.into());
-            }
+            check_limit(field, Some(joint), value)?;
         }
     }
     Ok(())
@@ -108,7 +110,6 @@ pub(super) fn check_duration(value: f64) -> Result<(), Error> {
     Ok(())
 }
 
-/// Check that numbers are finite.
 pub(crate) fn check_finite(field: &'static str, numbers: &[f64]) -> Result<(), Error> {
     match numbers.iter().position(|number| !number.is_finite()) {
         None => Ok(()),

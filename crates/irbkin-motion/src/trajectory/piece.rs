@@ -79,7 +79,6 @@ impl Line {
 }
 
 impl Strips {
-    /// Makes them those of a piece.
     pub(super) fn set(&mut self, piece: &Piece<'_>, max_acceleration: &[f64]) {
         let h = piece.length;
         self.lines.clear();

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::axis::AxisMotion;
-use super::check::check_positive;
+use super::check::{check_limit, check_positive};
 use super::polynomial::{TERMS, derivatives, line, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
@@ -159,9 +159,7 @@ impl Trajectory {
     ///
     /// [`Error::InvalidMotion`] unless `dt` is positive.
     pub fn steps_of(&self, dt: f64) -> Result<usize, Error> {
-        if dt.is_nan() || dt <= 0.0 {
-            return Err(MotionFault::NotPositive { field: "dt", index: None, value: dt }.into());
-        }
+        check_limit("dt", None, dt)?;
         let steps = (self.duration() / dt - STEP_ROUNDING).ceil().max(1.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 or more")]
         let steps = steps as usize;
@@ -263,7 +261,6 @@ impl Trajectory {
         Ok(self)
     }
 
-    /// The trajectory passed the other way.
     pub(super) fn reversed(&self) -> Self {
         let duration = self.duration();
         let knots = self.knots.iter().rev().map(|knot| duration - knot).collect();

@@ -31,7 +31,6 @@ pub(crate) fn derivatives(coefficients: &[f64], t: f64) -> [f64; 4] {
     [value, first, 2.0 * second, 6.0 * third]
 }
 
-/// The coefficients of the derivative.
 pub(crate) fn derivative(coefficients: &[f64; TERMS]) -> [f64; TERMS] {
     let mut derivative = [0.0; TERMS];
     let mut order = 0.0;
@@ -54,18 +53,9 @@ pub(crate) fn shifted(coefficients: &[f64; TERMS], shift: f64) -> [f64; TERMS] {
 }
 
 /// The largest size of the polynomial for t in 0 ..= `end`.
-///
-/// It is at an end or where the derivative is zero. The zeros are found by recursion: between two
-/// neighboring zeros of its own derivative a polynomial is monotone, so halving finds what it has
-/// there, without the ill-conditioned roots of a formula.
 pub(crate) fn largest_size(coefficients: &[f64; TERMS], end: f64) -> f64 {
-    let mut extremes = [0.0; TERMS + 1];
-    let count = critical_points(coefficients, end, &mut extremes);
-    extremes[..count]
-        .iter()
-        .map(|t| derivatives(coefficients, *t)[0].abs())
-        .fold(derivatives(coefficients, 0.0)[0].abs(), f64::max)
-        .max(derivatives(coefficients, end)[0].abs())
+    let [[_, least], [_, most]] = extremes(coefficients, end);
+    most.max(-least)
 }
 
 /// A number that [`largest_size`] does not exceed: the largest size of [`hull`].
@@ -126,6 +116,9 @@ pub(crate) fn extremes(coefficients: &[f64; TERMS], end: f64) -> [[f64; 2]; 2] {
 }
 
 /// The zeros of the derivative in 0 ..= `end`, in order; returns how many there are.
+///
+/// They are found by recursion: between two neighboring zeros of its own derivative a polynomial is
+/// monotone, so halving finds what it has there, without the ill-conditioned roots of a formula.
 fn critical_points(coefficients: &[f64; TERMS], end: f64, points: &mut [f64; TERMS + 1]) -> usize {
     let slope = derivative(coefficients);
     if slope[1..].iter().all(|coefficient| *coefficient == 0.0) {

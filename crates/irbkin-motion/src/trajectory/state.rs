@@ -143,7 +143,6 @@ fn check_overflow(motion: &AxisMotion) -> Result<(), Error> {
     if end.is_finite() { Ok(()) } else { Err(MotionFault::Overflow.into()) }
 }
 
-/// Check states and their limits.
 fn check(states: &[AxisState], limits: &[AxisLimits]) -> Result<(), Error> {
     check_axes(limits, states.len())?;
     for (index, (state, limits)) in states.iter().zip(limits).enumerate() {

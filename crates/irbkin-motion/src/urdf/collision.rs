@@ -147,7 +147,7 @@ fn below(
         return None;
     }
     let placed = joint.placed(tree.version).and_then(|placed| {
-        carrier.pose *= placed.origin(0.0);
+        carrier.pose *= placed.origin(Some(0.0));
         if joint.kind != "fixed" {
             let sweep = Sweep::of(joint, carrier.beside.len(), tree)?;
             carrier.beside.push((carrier.pose, sweep));
@@ -160,12 +160,9 @@ fn below(
 
 /// The shape of an element; `None` for a mesh, and what is wrong with one that is none.
 fn shape_of(collision: Node<'_, '_>) -> Result<Option<Shape>, String> {
-    let element = |node: Node<'_, '_>, name: &str| {
-        node.children().find(|child| child.has_tag_name(name)).map(|found| found.id())
-    };
-    let node = |id| collision.document().get_node(id);
+    let element = |name: &str| collision.children().find(|child| child.has_tag_name(name));
     let (mut xyz, mut rpy) = ([0.0; 3], [0.0; 3]);
-    if let Some(origin) = element(collision, "origin").and_then(node) {
+    if let Some(origin) = element("origin") {
         xyz = numbers(origin, "xyz")?.unwrap_or(xyz);
         rpy = numbers(origin, "rpy")?.unwrap_or(rpy);
         if let Some([x, y, z, w]) = numbers(origin, "quat_xyzw")? {
@@ -176,18 +173,13 @@ fn shape_of(collision: Node<'_, '_>) -> Result<Option<Shape>, String> {
     }
     let [roll, pitch, yaw] = rpy;
     let pose = constant_pose(xyz, [yaw, pitch, roll]);
-    let geometry = element(collision, "geometry").and_then(node);
+    let geometry = element("geometry");
     let Some(solid) = geometry.and_then(|geometry| geometry.first_element_child()) else {
         return Err("has no geometry".to_owned());
     };
-    let length = |name: &str| {
-        numbers::<1>(solid, name)?.map(|[value]| value).ok_or_else(|| format_missing(solid, name))
-    };
+    let length = |name: &str| needed(solid, name).map(|[value]| value);
     let shape = match solid.tag_name().name() {
-        "box" => {
-            let size = numbers(solid, "size")?.ok_or_else(|| format_missing(solid, "size"))?;
-            Shape::cuboid(size, &pose)
-        }
+        "box" => Shape::cuboid(needed(solid, "size")?, &pose),
         "sphere" => Shape::sphere(length("radius")?, xyz),
         "cylinder" => Shape::cylinder(length("radius")?, length("length")?, &pose),
         "capsule" => {
@@ -200,8 +192,10 @@ fn shape_of(collision: Node<'_, '_>) -> Result<Option<Shape>, String> {
     shape.map(Some).map_err(|error| alloc::format!("{}: {error}", solid.tag_name().name()))
 }
 
-fn format_missing(node: Node<'_, '_>, name: &str) -> String {
-    alloc::format!("{} has no {name}", node.tag_name().name())
+/// The numbers of an attribute that must be there.
+fn needed<const K: usize>(node: Node<'_, '_>, name: &str) -> Result<[f64; K], String> {
+    let missing = || alloc::format!("{} has no {name}", node.tag_name().name());
+    numbers(node, name)?.ok_or_else(missing)
 }
 
 /// The numbers of an attribute, if it is there.
@@ -258,7 +252,7 @@ pub(super) fn body_of<const N: usize>(
     arm: &Arm<N>,
     solids: &[Solid],
     joints: &[Placed],
-    snap: f64,
+    snap: Option<f64>,
     remark: &str,
 ) -> Option<Body> {
     if solids.is_empty() {
@@ -284,7 +278,7 @@ pub(super) fn body_of<const N: usize>(
 pub(super) fn places<const N: usize>(
     arm: &Arm<N>,
     joints: &[Placed],
-    snap: f64,
+    snap: Option<f64>,
 ) -> Vec<Option<(usize, Pose)>> {
     let (frames, _) = arm.link_frames(&[0.0; N]);
     let is_carried = joints.last().is_some_and(|joint| joint.motion.is_none());
@@ -293,7 +287,7 @@ pub(super) fn places<const N: usize>(
     for (index, joint) in joints.iter().enumerate() {
         pose *= joint.origin(snap);
         if let Some(linkage) = &joint.linkage {
-            pose *= linkage.turned(snap);
+            pose *= linkage.turned(snap.unwrap_or(0.0));
             coupled = true;
         }
         turning += usize::from(joint.motion.is_some());

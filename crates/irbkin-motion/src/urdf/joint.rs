@@ -31,9 +31,11 @@ pub(super) struct Joint<'a> {
 /// The numbers of a joint, as in the text.
 pub(crate) struct Placed {
     /// The child's origin in the parent [m].
-    xyz: [f64; 3],
+    pub(super) xyz: [f64; 3],
     /// Roll, pitch and yaw of the child in the parent [rad].
-    rpy: [f64; 3],
+    pub(super) rpy: [f64; 3],
+    /// Roll, pitch and yaw with rounded right angles made exact [rad].
+    pub(super) exact_rpy: [f64; 3],
     /// The motion; `None` for a fixed joint, and for a linkage's.
     pub(super) motion: Option<Motion>,
     /// The linkage that the joint stands for, if it does.
@@ -60,10 +62,11 @@ pub(super) struct Linkage {
 }
 
 impl Placed {
-    /// The child's frame in the parent's at a joint angle of zero; angles within `snap` of a
-    /// multiple of 90 deg [rad] are made exact.
-    pub(super) fn origin(&self, snap: f64) -> Pose {
-        let [roll, pitch, yaw] = self.rpy.map(|angle| snapped(angle, snap));
+    /// The child's frame in the parent's at a joint angle of zero; angles within `snap`, or their
+    /// rounding, of a multiple of 90 deg [rad] are made exact.
+    pub(super) fn origin(&self, snap: Option<f64>) -> Pose {
+        let made_exact = |snap| self.rpy.map(|angle| snapped(angle, snap));
+        let [roll, pitch, yaw] = snap.map_or(self.exact_rpy, made_exact);
         constant_pose(self.xyz, [yaw, pitch, roll])
     }
 }
@@ -78,8 +81,8 @@ impl Linkage {
 }
 
 /// An axis of the child in the base frame, for the child's frame at zero joint angles.
-pub(super) fn axis(direction: Vector3<f64>, t_base_child: &Pose, snap: f64) -> JointAxis {
-    let direction = t_base_child.rotation * snapped_direction(direction, snap);
+pub(super) fn axis(direction: Vector3<f64>, t_base_child: &Pose, snap: Option<f64>) -> JointAxis {
+    let direction = t_base_child.rotation * snapped_direction(direction, snap.unwrap_or(0.0));
     JointAxis { direction: direction.into(), point: t_base_child.translation.vector.into() }
 }
 
@@ -88,6 +91,16 @@ fn snapped_direction(direction: Vector3<f64>, snap: f64) -> Vector3<f64> {
     let rest = direction.map(|component| if component.abs() <= snap { 0.0 } else { component });
     let along = rest.map(|component| if component == 0.0 { 0.0 } else { component.signum() });
     if along.norm_squared() < 1.5 && (direction - along).norm() <= snap { along } else { direction }
+}
+
+/// Half a unit of the last decimal of a number in the text, or of the seventh: files have
+/// 3.1415926926 and 1.570796325. 0 with fewer than four decimals, of a float's own digits, and near
+/// zero.
+fn rounding_of(word: &str) -> f64 {
+    let (whole, decimals) = word.split_once('.').unwrap_or_default();
+    let is_far = whole.parse().is_ok_and(|whole: i32| whole != 0);
+    let half_unit = decimals.bytes().take(7).fold(0.5, |half_unit, _| half_unit / 10.0);
+    if is_far && (4..13).contains(&decimals.len()) { half_unit } else { 0.0 }
 }
 
 impl<'a> Joint<'a> {
@@ -192,13 +205,18 @@ impl<'a> Joint<'a> {
     /// The numbers of the joint.
     pub(super) fn placed(&self, version: Version) -> Result<Placed, UrdfFault> {
         check_attributes(self.node, self.name, version)?;
-        let (mut xyz, mut rpy) = ([0.0; 3], [0.0; 3]);
+        let (mut xyz, mut rpy, mut exact_rpy) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         if let Some(origin) = self.element("origin")? {
             xyz = self.three(origin, "xyz", "origin xyz", MOST_LENGTH)?.unwrap_or(xyz);
             rpy = self.rpy(origin)?.unwrap_or(rpy);
+            exact_rpy = rpy;
+            let words = origin.attribute("rpy").unwrap_or_default().split_whitespace();
+            for (angle, word) in exact_rpy.iter_mut().zip(words) {
+                *angle = snapped(*angle, rounding_of(word));
+            }
         }
         let linkage = self.multiplier_and_offset().map(|turns| self.linkage(turns)).transpose()?;
-        Ok(Placed { xyz, rpy, motion: self.motion()?, linkage })
+        Ok(Placed { xyz, rpy, exact_rpy, motion: self.motion()?, linkage })
     }
 
     /// The rotation of an origin as roll, pitch and yaw [rad].
@@ -233,7 +251,6 @@ impl<'a> Joint<'a> {
         Ok(Linkage { direction, offset: -multiplier * offset, limits, fault: self.mimic() })
     }
 
-    /// The direction of the axis.
     pub(super) fn direction(&self) -> Result<Vector3<f64>, UrdfFault> {
         let axis = match self.element("axis")? {
             Some(axis) => self.three(axis, "xyz", "axis", f64::MAX)?,

@@ -16,6 +16,7 @@ mod write;
 
 use alloc::borrow::ToOwned as _;
 use alloc::boxed::Box;
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -51,6 +52,9 @@ where
     /// about the reverse axis, and any offset, is a parallelogram linkage: the arm is then
     /// [`Robot::coupled`].
     ///
+    /// Right angles rounded to four or more decimals, as 1.5708, are made exact, unless that may move
+    /// the tool by more than 1e-4 m; [`Arm::from_urdf_snapped`] with 0 keeps them.
+    ///
     /// The body of the robot has capsules that contain the collision shapes of all links that move
     /// with the chain: boxes, cylinders, spheres and capsules. Links behind joints beside the chain,
     /// as of a gripper, are in it wherever these joints may be; another arm on the same base is
@@ -66,7 +70,7 @@ where
     /// given, or six joints are not independent.
     /// [`Arm::serial_chain_from_urdf`] accepts such an arm, without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.solved(0.0)
+        UrdfArm::read(text, base, tip, &[N])?.solved(None)
     }
 
     /// As [`Arm::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
@@ -81,7 +85,7 @@ where
         tip: Option<&str>,
         snap: f64,
     ) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.solved(snap)
+        UrdfArm::read(text, base, tip, &[N])?.solved(Some(snap))
     }
 
     /// As [`Arm::from_urdf`], of joints that are not independent too: then without the inverse.
@@ -94,7 +98,7 @@ where
         base: Option<&str>,
         tip: Option<&str>,
     ) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.arm(0.0)
+        UrdfArm::read(text, base, tip, &[N])?.arm(None)
     }
 }
 
@@ -105,7 +109,7 @@ impl AnyArm {
     ///
     /// As [`Arm::from_urdf`].
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[6, 7])?.any_arm(0.0)
+        UrdfArm::read(text, base, tip, &[6, 7])?.any_arm(None)
     }
 }
 
@@ -117,7 +121,9 @@ pub struct UrdfArm {
     name: String,
     /// Base and tip.
     ends: [String; 2],
-    labels: (Vec<String>, String),
+    joint_names: Vec<String>,
+    /// On the tip, and on exact right angles.
+    remarks: [String; 2],
     joints: Vec<Placed>,
     /// The shapes of its links, if all are read, and a remark on those beside the chain.
     solids: Result<(Vec<Solid>, String), UrdfFault>,
@@ -139,10 +145,11 @@ impl UrdfArm {
             let ends = [base, tip].map(|link| tree.links[link].to_string());
             let solids = solids(&tree, document.root_element(), base, &chain);
             let turning = chain.iter().filter(|joint| joint.turns());
-            let names = turning.map(|joint| joint.name.to_string()).collect();
+            let joint_names = turning.map(|joint| joint.name.to_string()).collect();
             let placed = |joint: &Joint<'_>| joint.placed(tree.version);
-            let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
-            Ok(Self { name: tree.name.to_string(), ends, labels: (names, remark), joints, solids })
+            let mut joints = chain.into_iter().map(placed).collect::<Result<Vec<_>, _>>()?;
+            let remarks = [remark, check_rounding(&mut joints)];
+            Ok(Self { name: tree.name.to_string(), ends, joint_names, remarks, joints, solids })
         })
     }
 
@@ -154,9 +161,9 @@ impl UrdfArm {
         tip: Option<&str>,
     ) -> Result<(Vec<Moving>, String), Error> {
         let arm = Self::read(text, base, tip, &[6, 7])?;
-        let places = match arm.any_arm(0.0)? {
-            AnyArm::Six(own) => places(&own, &arm.joints, 0.0),
-            AnyArm::Seven(own) => places(&own, &arm.joints, 0.0),
+        let places = match arm.any_arm(None)? {
+            AnyArm::Six(own) => places(&own, &arm.joints, None),
+            AnyArm::Seven(own) => places(&own, &arm.joints, None),
         };
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
@@ -184,7 +191,7 @@ impl UrdfArm {
 
     /// As [`Self::arm`], of six or seven joints.
     #[doc(hidden)]
-    pub fn any_arm(&self, snap: f64) -> Result<AnyArm, Error> {
+    pub fn any_arm(&self, snap: Option<f64>) -> Result<AnyArm, Error> {
         match self.motions().count() {
             7 => self.solved::<7>(snap).map(AnyArm::Seven),
             _ => self.solved::<6>(snap).map(AnyArm::Six),
@@ -192,7 +199,7 @@ impl UrdfArm {
     }
 
     /// As [`Self::arm`], with its inverse; a refusal names the chain.
-    fn solved<const N: usize>(&self, snap: f64) -> Result<Arm<N>, Error>
+    fn solved<const N: usize>(&self, snap: Option<f64>) -> Result<Arm<N>, Error>
     where
         Robot<N>: Joints<N>,
     {
@@ -208,17 +215,17 @@ impl UrdfArm {
         )
     }
 
-    /// The arm, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad]
-    /// are made exact. If the arm has no closed form, or no table, and would have one with a larger
-    /// snap, that is proposed.
-    fn arm<const N: usize>(&self, snap: f64) -> Result<Arm<N>, Error>
+    /// The arm, which must have `N` joints. Angles within `snap`, or their rounding, of a multiple
+    /// of 90 deg [rad] are made exact. If the arm has no closed form, or no table, and would have
+    /// one with a larger snap, that is proposed.
+    fn arm<const N: usize>(&self, snap: Option<f64>) -> Result<Arm<N>, Error>
     where
         Robot<N>: Joints<N>,
     {
-        check_snap(snap)?;
+        check_snap(snap.unwrap_or(0.0))?;
         let snaps = || (0..).zip(SNAPS);
         let closed = |(index, snap): (u8, f64)| {
-            Some((index, Robot::in_closed_form(self.table::<N>(snap).ok()?)?))
+            Some((index, Robot::in_closed_form(self.table::<N>(Some(snap)).ok()?)?))
         };
         let proposal = || snaps().find_map(closed);
         let robot = match self.robot::<N>(snap) {
@@ -226,7 +233,7 @@ impl UrdfArm {
                 None if robot.structure() == "general" => {
                     // To recognize it takes milliseconds: the largest is tried first.
                     let wrist = |(index, snap): (u8, f64)| {
-                        let other = self.robot::<N>(snap).ok()?;
+                        let other = self.robot::<N>(Some(snap)).ok()?;
                         (other.structure() == OFFSET_WRIST).then_some((index, other))
                     };
                     let largest = snaps().last().and_then(wrist);
@@ -246,7 +253,10 @@ impl UrdfArm {
             }
             other => other?,
         };
-        let arm = Arm::from(self.limited(robot)?);
+        let remarks = self.remarks.iter().take(if snap.is_none() { 2 } else { 1 });
+        let remarks: Vec<_> = remarks.filter(|it| !it.is_empty()).cloned().collect();
+        let labels = (self.joint_names.clone(), remarks.join(", "));
+        let arm = Arm::from(self.limited(robot.with_labels(Some(labels)))?);
         match &self.solids {
             Ok((solids, remark)) => {
                 let body = body_of(&arm, solids, &self.joints, snap, remark);
@@ -256,16 +266,14 @@ impl UrdfArm {
         }
     }
 
-    /// The table of the chain.
-    fn table<const N: usize>(&self, snap: f64) -> Result<Mdh<N>, Error> {
+    fn table<const N: usize>(&self, snap: Option<f64>) -> Result<Mdh<N>, Error> {
         let (axes, t_base_tip) = self.axes(snap)?;
         let axes = <[JointAxis; N]>::try_from(axes)
             .map_err(|axes| ModelFault::JointCount { found: axes.len(), wanted: N })?;
         Ok(Mdh::from_joint_axes(&axes, &t_base_tip)?)
     }
 
-    /// The robot of the table.
-    fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
+    fn robot<const N: usize>(&self, snap: Option<f64>) -> Result<Robot<N>, Error>
     where
         Robot<N>: Joints<N>,
     {
@@ -273,7 +281,7 @@ impl UrdfArm {
     }
 
     /// The axes of the joints that turn, and the tip, both in the base at zero joint angles.
-    fn axes(&self, snap: f64) -> Result<(Vec<JointAxis>, Pose), UrdfFault> {
+    fn axes(&self, snap: Option<f64>) -> Result<(Vec<JointAxis>, Pose), UrdfFault> {
         let mut t_base_tip = Pose::identity();
         let mut axes = Vec::new();
         let mut linkage = None;
@@ -284,7 +292,7 @@ impl UrdfArm {
             );
             if let Some(found) = &joint.linkage {
                 linkage = Some((axis(found.direction, &t_base_tip, snap), found));
-                t_base_tip *= found.turned(snap);
+                t_base_tip *= found.turned(snap.unwrap_or(0.0));
             }
         }
         match (linkage, &axes[..]) {
@@ -310,12 +318,38 @@ impl UrdfArm {
             robot = robot.coupled()?.with_linkage_limits(linkage.limits)?;
         }
         let robot = robot
-            .with_labels(Some(self.labels.clone()))
             .with_name(self.name.clone())
             .with_limits(JointLimits::new(limits)?)
             .with_max_velocity(all_known.then_some(velocities))?;
         Ok(robot)
     }
+}
+
+/// How far exact right angles move and turn the tool in any posture, in words. Where that is more
+/// than `MOST_SHIFT`, the angles of the text are kept.
+fn check_rounding(joints: &mut [Placed]) -> String {
+    /// The farthest that the tool may be moved unasked [m]: less than calibrations move it.
+    const MOST_SHIFT: f64 = 1e-4;
+    let mut moves = 0.0;
+    let mut turns = 0.0;
+    let mut reach = 0.0;
+    for joint in joints.iter().rev() {
+        let errors = Vector3::from(joint.exact_rpy) - Vector3::from(joint.rpy);
+        turns += errors.abs().sum();
+        moves += errors.abs().sum() * reach;
+        reach += Vector3::from(joint.xyz).norm();
+    }
+    let shift = format!("the tool by up to {moves:.1e} m, {turns:.1e} rad");
+    if turns <= FORM_TOLERANCE {
+        return String::new();
+    }
+    if moves <= MOST_SHIFT {
+        return format!("rounded right angles made exact, which moves {shift} (snap=0 keeps them)");
+    }
+    for joint in joints {
+        joint.exact_rpy = joint.rpy;
+    }
+    format!("rounded right angles kept: exact ones would move {shift} (snap= makes them exact)")
 }
 
 /// Whether two axes are on one line, in whatever sense.

@@ -100,7 +100,13 @@ impl<'a> Tree<'a> {
         }
         tree.version = version_of(robot)?;
         for node in elements("link") {
-            tree.add_link(node)?;
+            let name = node.attribute("name").ok_or_else(|| tree.missing(node, "link", "name"))?;
+            if tree.index.insert(name, tree.links.len()).is_some() {
+                return Err(UrdfFault::SameName { element: "link", name: name.to_owned() });
+            }
+            tree.links.push(name);
+            tree.above.push(None);
+            tree.below.push(Vec::new());
         }
         let is_xacro = |uri: &str| uri.contains("xacro");
         if tree.links.is_empty() && robot.namespaces().any(|space| is_xacro(space.uri())) {
@@ -126,28 +132,15 @@ impl<'a> Tree<'a> {
         Ok(tree)
     }
 
-    fn add_link(&mut self, node: Node<'a, 'a>) -> Result<(), UrdfFault> {
-        let name = node.attribute("name").ok_or_else(|| self.missing(node, "link", "name"))?;
-        if self.index.insert(name, self.links.len()).is_some() {
-            return Err(UrdfFault::SameName { element: "link", name: name.to_owned() });
-        }
-        self.links.push(name);
-        self.above.push(None);
-        self.below.push(Vec::new());
-        Ok(())
-    }
-
     /// The index of a link.
     pub(super) fn link(&self, name: &str) -> Option<usize> {
         self.index.get(name).copied()
     }
 
-    /// The joint of a name.
     pub(super) fn joint(&self, name: &str) -> Option<&Joint<'a>> {
         self.joint_index.get(name).map(|&joint| &self.joints[joint])
     }
 
-    /// The links without a parent.
     pub(super) fn roots(&self) -> impl Iterator<Item = usize> {
         (0..self.links.len()).filter(|&link| self.above[link].is_none())
     }

@@ -96,7 +96,6 @@ impl Capsule {
         self.radius * self.radius * (length + 4.0 / 3.0 * self.radius)
     }
 
-    /// How far two capsules are apart.
     pub(crate) fn separation(&self, other: &Self) -> Separation {
         let (_, points) = between(&self.ends, &other.ends);
         Separation::of_balls(points, [self.radius, other.radius])

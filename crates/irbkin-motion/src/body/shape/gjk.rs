@@ -22,7 +22,6 @@ const RELATIVE: f64 = 1e-12;
 /// Volume of a tetrahedron below which it counts as flat, relative to a box of its edges [1].
 const FLAT: f64 = 1e-10;
 
-/// A convex shape.
 pub(crate) trait Convex {
     /// A point of it that is farthest along a direction; one that may be near it is known.
     fn support(&self, direction: &Vector3<f64>, known: Option<&Vector3<f64>>) -> Vector3<f64>;
@@ -45,7 +44,6 @@ impl<const K: usize> Convex for [Vector3<f64>; K] {
     }
 }
 
-/// A convex shape in a frame.
 pub(crate) struct Framed<T> {
     pub(crate) shape: T,
     pub(crate) pose: Pose,

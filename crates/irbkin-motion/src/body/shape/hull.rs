@@ -62,12 +62,10 @@ impl Hull {
         self.0.points.iter().map(|point| (*point).into())
     }
 
-    /// The box around it.
     pub(super) fn bounds(&self) -> &Bounds {
         self.0.tree.bounds()
     }
 
-    /// How far a capsule is from it.
     pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
         let (distance, points) = self.nearest(capsule, DistanceQuery::DISTANCE);
         Separation::of_rounded(distance, points, [capsule.radius, 0.0])

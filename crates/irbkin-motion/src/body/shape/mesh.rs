@@ -101,7 +101,6 @@ impl Mesh {
         &self.0.tree
     }
 
-    /// How far a capsule is from it.
     pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
         let axis = &capsule.ends;
         // If the axis is not inside as a whole, it goes through a triangle or is outside.

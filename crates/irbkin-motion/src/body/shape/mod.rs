@@ -27,3 +27,4 @@ pub use self::hull::Hull;
 pub use self::mesh::Mesh;
 pub use self::rounded::RoundedHull;
 pub use self::solid::Shape;
+pub(crate) use self::tree::{Bounds, Tree};

@@ -122,7 +122,6 @@ impl RoundedHull {
         Self(Arc::new(RoundedHullData { columns, count, faces, radius, center, spread, core }))
     }
 
-    /// A capsule as a hull.
     pub(crate) fn of_capsule(capsule: &Capsule) -> Self {
         Self::known(&capsule.ends, Vec::new(), capsule.radius, Some(*capsule))
     }

@@ -209,15 +209,12 @@ impl Shape {
     ///
     /// [`Error::InvalidBody`] without a shape.
     pub fn union(shapes: Vec<Self>) -> Result<Self, Error> {
-        let parts: Vec<_> = shapes.into_iter().flat_map(Self::into_parts).collect();
-        if parts.is_empty() { Err(BodyFault::NoShape.into()) } else { Ok(Self::Union(parts)) }
-    }
-
-    fn into_parts(self) -> Vec<Self> {
-        match self {
+        let parts = |shape| match shape {
             Self::Union(parts) => parts,
             one => alloc::vec![one],
-        }
+        };
+        let parts: Vec<_> = shapes.into_iter().flat_map(parts).collect();
+        if parts.is_empty() { Err(BodyFault::NoShape.into()) } else { Ok(Self::Union(parts)) }
     }
 
     /// The shapes that it consists of: itself, if it is no union.
@@ -274,17 +271,28 @@ impl Shape {
             Self::Convex { pose, hull } => around(pose, hull.bounds(), 0.0),
             Self::Mesh { pose, mesh } => around(pose, mesh.tree().bounds(), 0.0),
             Self::Points { pose, cloud } => around(pose, cloud.tree().bounds(), cloud.radius()),
+            Self::Union(_) => around(&Pose::identity(), &self.bounds()?, 0.0),
+        })
+    }
+
+    /// A box around it along the axes, if it has an end.
+    pub(crate) fn bounds(&self) -> Option<Bounds> {
+        let around = |half: Vector3<f64>, pose: &Pose| Bounds::of([&-half, &half]).moved(pose);
+        Some(match self {
+            Self::Capsule(own) => Bounds::of(&own.ends).widened(own.radius),
+            Self::Box { pose, half } => around(*half, pose),
+            Self::Cylinder { pose, radius, half } => {
+                around(Vector3::new(*radius, *radius, *half), pose)
+            }
+            Self::HalfSpace { .. } => return None,
+            Self::Convex { pose, hull } => hull.bounds().moved(pose),
+            Self::Mesh { pose, mesh } => mesh.tree().bounds().moved(pose),
+            Self::Points { pose, cloud } => {
+                cloud.tree().bounds().moved(pose).widened(cloud.radius())
+            }
             Self::Union(parts) => {
-                let mut around = Bounds::of([]);
-                for part in parts {
-                    let (center, radius) = part.ball()?;
-                    around.low = around.low.inf(&center.add_scalar(-radius));
-                    around.high = around.high.sup(&center.add_scalar(radius));
-                }
-                let center = around.center();
-                let far = |(own, radius): (Vector3<f64>, f64)| (own - center).norm() + radius;
-                let most = parts.iter().filter_map(Self::ball).map(far).fold(0.0, f64::max);
-                (center, most)
+                let each = parts.iter().map(Self::bounds).collect::<Option<Vec<_>>>()?;
+                Bounds::of(each.iter().flat_map(|own| [&own.low, &own.high]))
             }
         })
     }

@@ -48,7 +48,6 @@ pub(super) fn opening(
     Ok(Some(BodyFault::Open { edge, senses: [*along, *back], count: 1 + open.count() }))
 }
 
-/// Check that triangles enclose a volume.
 pub(super) fn check_volume(triangles: &[Triangle]) -> Result<(), Error> {
     let middle = triangles[0][0];
     let (mut volume, mut area) = (0.0, 0.0);

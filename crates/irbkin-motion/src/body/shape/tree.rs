@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::segment::{NOWHERE, Nearest, Segment, at, part_near};
-use irbkin::{Interrupt, Interrupted};
+use irbkin::{Interrupt, Interrupted, Pose};
 
 /// Items of a leaf, at most.
 const LEAF: usize = 4;
@@ -17,16 +17,16 @@ const BOUND: f64 = 1e-9;
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bounds {
+pub(crate) struct Bounds {
     /// The least coordinates [m].
-    pub(super) low: Vector3<f64>,
+    pub(crate) low: Vector3<f64>,
     /// The largest coordinates [m].
-    pub(super) high: Vector3<f64>,
+    pub(crate) high: Vector3<f64>,
 }
 
 impl Bounds {
     /// The box around points.
-    pub(super) fn of<'a>(points: impl IntoIterator<Item = &'a Vector3<f64>>) -> Self {
+    pub(crate) fn of<'a>(points: impl IntoIterator<Item = &'a Vector3<f64>>) -> Self {
         let empty = Vector3::repeat(f64::INFINITY);
         let around = |own: Self, point: &Vector3<f64>| Self {
             low: own.low.inf(point),
@@ -35,8 +35,25 @@ impl Bounds {
         points.into_iter().fold(Self { low: empty, high: -empty }, around)
     }
 
+    /// The box around it as seen from the frame in which its own has a pose.
+    pub(super) fn moved(&self, pose: &Pose) -> Self {
+        let center = pose.rotation * self.center() + pose.translation.vector;
+        let half = pose.rotation.matrix().abs() * (0.5 * (self.high - self.low));
+        Self { low: center - half, high: center + half }
+    }
+
+    /// The box with all that is within a radius [m] of it.
+    pub(super) fn widened(&self, radius: f64) -> Self {
+        Self { low: self.low.add_scalar(-radius), high: self.high.add_scalar(radius) }
+    }
+
+    /// How far a point is from it [m].
+    pub(crate) fn distance(&self, point: &Vector3<f64>) -> f64 {
+        (self.low - point).sup(&(point - self.high)).sup(&Vector3::zeros()).norm()
+    }
+
     /// Its middle [m].
-    pub(super) fn center(&self) -> Vector3<f64> {
+    pub(crate) fn center(&self) -> Vector3<f64> {
         0.5 * (self.low + self.high)
     }
 
@@ -53,7 +70,6 @@ impl Bounds {
         square_along(&way, way.norm_squared() - way.abs().dot(&half))
     }
 
-    /// Whether a point is in it.
     pub(super) fn contains(&self, point: &Vector3<f64>) -> bool {
         (0..3).all(|axis| self.low[axis] <= point[axis] && point[axis] <= self.high[axis])
     }
@@ -88,38 +104,69 @@ struct Node {
     count: usize,
 }
 
+/// Nodes that are left to be looked into, at most: each halves its items.
+const LEFT: usize = 64;
+
 /// A tree of boxes around items, each of which is halved along its longest edge.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tree {
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Tree {
     nodes: Vec<Node>,
     /// The items of the leaves, one leaf after another.
     items: Vec<usize>,
 }
 
 impl Tree {
-    /// A tree of at least one item, by their boxes.
-    pub(super) fn new(boxes: &[Bounds], interrupt: Interrupt<'_>) -> Result<Self, Interrupted> {
+    /// A tree of items, by their boxes.
+    pub(crate) fn new(boxes: &[Bounds], interrupt: Interrupt<'_>) -> Result<Self, Interrupted> {
         let mut items: Vec<usize> = (0..boxes.len()).collect();
         let mut nodes = Vec::new();
-        split(boxes, &mut items, 0, &mut nodes, interrupt)?;
+        if !items.is_empty() {
+            split(boxes, &mut items, 0, &mut nodes, interrupt)?;
+        }
         Ok(Self { nodes, items })
     }
 
-    /// The box around all items.
     pub(super) fn bounds(&self) -> &Bounds {
         &self.nodes[0].bounds
     }
 
+    /// Pass on the items of each leaf whose boxes are all near, until one stops it; returns whether
+    /// one does.
+    #[inline(always)]
+    pub(crate) fn stops_near(
+        &self,
+        is_near: impl Fn(&Bounds) -> bool,
+        mut stops: impl FnMut(&[usize]) -> bool,
+    ) -> bool {
+        let mut left = [0; LEFT];
+        let mut count = self.nodes.len().min(1);
+        while count > 0 {
+            count -= 1;
+            let at = left[count];
+            let node = &self.nodes[at];
+            if !is_near(&node.bounds) {
+                continue;
+            }
+            if node.count == 0 {
+                left[count..count + 2].copy_from_slice(&[node.next, at + 1]);
+                count += 2;
+            } else if stops(&self.items[node.next..node.next + node.count]) {
+                return true;
+            }
+        }
+        false
+    }
+
     /// Find the least `value` of an item that is less than `most`. Boxes whose `bound`, which is at
     /// most the values of the items inside, is not less than a value found are not looked into.
-    pub(super) fn search(
+    pub(crate) fn search(
         &self,
         most: f64,
         bound: impl Fn(&Bounds) -> f64,
         mut value: impl FnMut(usize) -> f64,
     ) {
         let mut least = most;
-        if bound(self.bounds()) < least {
+        if !self.nodes.is_empty() && bound(self.bounds()) < least {
             self.look(0, &bound, &mut value, &mut least);
         }
     }

@@ -12,7 +12,6 @@ pub(super) type Triangle = [Vector3<f64>; 3];
 /// a perpendicular by more than 1e-12 of the edge [1].
 const SLIVER: f64 = 1e-8;
 
-/// The edges of a triangle.
 pub(super) fn edges([a, b, c]: &Triangle) -> [Segment; 3] {
     [[*a, *b], [*b, *c], [*c, *a]]
 }
