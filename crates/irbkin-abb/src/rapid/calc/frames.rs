@@ -66,6 +66,14 @@ impl Frames {
         }
     }
 
+    /// The tool in the world frame, for the flange in it.
+    pub(in crate::rapid) fn tcp(&self, t_world_flange: &Pose) -> Pose {
+        match self {
+            Self::Carried { t_flange_tool, .. } => t_world_flange * t_flange_tool,
+            Self::Stationary { t_world_tool, .. } => *t_world_tool,
+        }
+    }
+
     /// The flange in the world frame, for the tool in the work object.
     pub(in crate::rapid) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
         match self {

@@ -87,7 +87,10 @@ pub fn calc_rob_t<const N: usize>(
     let frames = Frames::new(robot, tool, wobj)?;
     let q = joint_vector(joints);
     let robconf = robot.configuration(&q)?;
-    let extax = with_arm_angle(robot, &q, joints.extax)?;
+    let mut extax = joints.extax;
+    if let ConfigurationRule::ArmAngle { .. } = robot.configuration_rule()? {
+        extax[0] = robot.arm_angle(&q)?.unwrap_or(0.0).to_degrees();
+    }
     let RapidPose { trans_mm, rot } = rapid_pose(&frames.tool(&with_flange(robot)?.fk(&q)));
     Ok(RobTarget { trans_mm, rot, robconf, extax })
 }
@@ -190,16 +193,4 @@ pub(in crate::rapid) fn request<const N: usize>(
         return Err(JointFault::MissingArmAngle.into());
     }
     Ok(request.at_arm_angle(arm_angle.to_radians()))
-}
-
-/// The external axes of a robtarget, of joint angles [rad] with external axes.
-pub(in crate::rapid) fn with_arm_angle<const N: usize>(
-    robot: &Robot<N>,
-    q: &[f64; N],
-    mut extax: [f64; 6],
-) -> Result<[f64; 6], Error> {
-    if let ConfigurationRule::ArmAngle { .. } = robot.configuration_rule()? {
-        extax[0] = robot.arm_angle(q)?.unwrap_or(0.0).to_degrees();
-    }
-    Ok(extax)
 }

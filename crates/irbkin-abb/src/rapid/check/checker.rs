@@ -1,18 +1,23 @@
 //! All moves of a program, checked.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use super::carried::{Carried, carried_by, carriers};
-use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
 use super::corners::Zones;
 use super::findings::{Case, sorted};
 use super::fixes::{Demand, Finder, correct};
-use super::undeclared::undeclared;
-use super::unused::unused;
+use super::loading::check_loading;
+use super::tasks::{Task, check_tasks};
+use super::undeclared::{undeclared, unused};
+use super::world_zones::{WorldZone, world_zones};
 use crate::Error;
+use crate::rapid::calc::confdata::AXES;
 use crate::rapid::calc::target::{converter, with_flange};
 use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
@@ -24,10 +29,13 @@ use crate::rapid::motion::goal::{Conf, Goal, Place};
 use crate::rapid::motion::joints::nearest_written;
 use crate::rapid::motion::routine::{Followed, check as check_options, velocities};
 use crate::rapid::program::walk::runs;
-use crate::rapid::program::walker::Run;
+use crate::rapid::program::walker::{Run, Step};
 use crate::rapid::program::whole::Program;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
-use irbkin::{Configuration, Interrupt, Robot};
+use irbkin::report::ConfigurationRule;
+use irbkin::thresholds::CONFIGURATION_EDGE;
+use irbkin::{Configuration, Error as RobotError, Interrupt, Pose, Robot};
+use irbkin_motion::body::Shape;
 use irbkin_motion::cell::Cell;
 use irbkin_motion::{Arm, cell};
 
@@ -57,6 +65,11 @@ pub struct CheckOptions<'a, const N: usize = 6> {
     /// Modules, by their indices, that are modules of the system although their attributes do not
     /// say so: what they call may be the system's.
     pub of_system: &'a [usize],
+    /// The names of the controller's signals, in lower case; without them a name that nothing
+    /// declares may be one.
+    pub signals: Option<&'a BTreeSet<String>>,
+    /// The tasks of the controller, the first with the modules that are checked.
+    pub tasks: &'a [Task<'a>],
     /// Ends the check early, with [`Error::Interrupted`].
     pub interrupt: Interrupt<'a>,
 }
@@ -136,7 +149,9 @@ pub fn check<const N: usize>(
             carrying.push((names, cell.checker(arm)?.until(options.interrupt)));
         }
     }
+    let (zones, no_zones) = world_zones(&program);
     let mut checker = Checker {
+        zones,
         robots: [arm, &flange],
         options,
         units,
@@ -153,9 +168,13 @@ pub fn check<const N: usize>(
     for run in &runs {
         checker.add(run)?;
     }
-    checker.found.extend(notes);
-    let CheckOptions { is_whole, of_system, interrupt, .. } = *options;
-    checker.found.extend(undeclared(&modules, &sources, is_whole, of_system, interrupt)?);
+    checker.found.extend(notes.into_iter().chain(no_zones));
+    let CheckOptions { is_whole, of_system, signals, interrupt, .. } = *options;
+    let has_tools = options.tools.is_some_and(|it| !it.is_empty());
+    let (refused, names) =
+        check_loading(&program, signals, has_tools, is_whole == Some(true), interrupt)?;
+    checker.found.extend(refused.into_iter().chain(check_tasks(options.tasks, is_whole)));
+    checker.found.extend(undeclared(&program, &sources, names, is_whole, of_system, interrupt)?);
     if options.codes.is_some_and(|codes| codes.contains(&Code::Unused)) {
         checker.found.extend(unused(&modules, &sources));
     }
@@ -222,6 +241,7 @@ struct Checker<'a, 'm, const N: usize> {
     options: &'a CheckOptions<'a, N>,
     units: &'a Units,
     max_velocity: [f64; N],
+    zones: Vec<WorldZone>,
     /// The arm with what it carries in the cell, by the names of that; none without a cell.
     carrying: Vec<(&'a Vec<String>, cell::Checker<'a, N>)>,
     carried: &'a Carried,
@@ -246,9 +266,12 @@ impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
             drive.check_speed(index, &self.max_velocity);
             if drive.made[index].as_programmed {
                 interrupt.check(0)?;
-                let step = drive.goals[index].step;
-                let finding = self.collision(step, drive.samples.along(index));
-                collisions.extend(finding.map(|it| it.at(step, index)));
+                let (goal, along) = (&drive.goals[index], drive.samples.along(index));
+                let touched = self.collision(goal.step, along);
+                let zones = self.zones.iter();
+                let entered = zones.filter_map(|it| it.entry(robots[1], &goal.frames, along));
+                collisions
+                    .extend(touched.into_iter().chain(entered).map(|it| it.at(goal.step, index)));
             }
             drive.samples.forget_before(index + 1);
             Ok(())
@@ -383,4 +406,98 @@ impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
         );
         Some(Finding::new(Code::Collision, words))
     }
+}
+
+/// Shapes in the flange frame, which it carries in moves with the tool or the work object of a name,
+/// in lower case.
+pub type Carried = BTreeMap<String, Vec<Shape>>;
+
+/// The names of what a move carries: of its tool and its work object those that have shapes and are
+/// not known to be stationary.
+fn carried_by(step: &Move, carried: &Carried) -> Vec<String> {
+    let is_held = !matches!(&step.tool.value, Ok(tool) if !tool.robhold);
+    let tool = Some(&step.tool.text).filter(|_| is_held);
+    let wobj = step.wobj.as_ref();
+    let part = wobj.filter(|it| !matches!(&it.value, Ok(wobj) if !wobj.robhold));
+    let part = part.map(|wobj| &wobj.text);
+    let names = [tool, part].into_iter().flatten().map(|text| text.to_lowercase());
+    names.filter(|name| carried.contains_key(name)).collect()
+}
+
+/// The arms that the moves of a program are made with, beside the names of what they carry.
+fn carriers<const N: usize>(
+    arm: &Arm<N>,
+    runs: &[Run<'_>],
+    carried: &Carried,
+) -> Result<Vec<(Vec<String>, Arm<N>)>, Error> {
+    let mut arms = Vec::from([(Vec::new(), arm.clone())]);
+    for step in runs.iter().flat_map(|run| &run.steps) {
+        let Step::Move(stepped) = step else { continue };
+        let names = carried_by(&stepped.step, carried);
+        if arms.iter().all(|(own, _)| *own != names) {
+            let shapes: Vec<Shape> =
+                names.iter().flat_map(|name| &carried[name]).cloned().collect();
+            arms.push((names, arm.clone().with_attached(&shapes, &Pose::identity(), None)?));
+        }
+    }
+    Ok(arms)
+}
+
+/// A finding on confdata that no solution has, with the configuration of the nearest joints.
+fn with_nearest<const N: usize>(
+    flange: &Robot<N>,
+    finding: Finding,
+    goal: &Goal<'_, N>,
+    q: &[f64; N],
+) -> Finding {
+    let (Code::WrongConfdata, Some(Place::Tool(pose, wanted)), Ok(nearest)) =
+        (finding.code, goal.place, flange.configuration(q))
+    else {
+        return finding;
+    };
+    let words = match flange.ik_configured(&goal.frames.flange(&pose), wanted) {
+        Err(error @ RobotError::InvalidJoints(_)) => error.to_string(),
+        _ => format!("no solution has its confdata {}", wanted.configuration),
+    };
+    let words = format!("{words}; that of the nearest is {nearest}");
+    Finding::new(finding.code, words).at(goal.step, finding.move_index)
+}
+
+/// A target that is so near the wrist singularity that its confdata names many joints, of which a
+/// joint move brings `q`. A line or an arc arrives with the joints that it comes with.
+fn in_wrist_singularity<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<Finding> {
+    let wrist = robot.singular_distances(q).map_or(1.0, |at| at.wrist);
+    let is_counted = robot.configuration_rule() == Ok(ConfigurationRule::SphericalWrist);
+    (is_counted && wrist < CONFIGURATION_EDGE).then(|| {
+        let words = format!(
+            "the target is {:.4} deg from the wrist singularity: axes 4 and 6 coincide, many joint \
+             angles have its confdata; use MoveAbsJ",
+            wrist.to_degrees()
+        );
+        Finding::new(Code::AmbiguousConfdata, words)
+    })
+}
+
+/// The axes of joints that are on the edge of a quarter, in sentences.
+fn on_edges<const N: usize>(
+    robot: &Robot<N>,
+    q: &[f64; N],
+) -> Result<impl Iterator<Item = Finding>, RobotError> {
+    let (joints, zero) = robot.counted_joints()?;
+    Ok(AXES.into_iter().zip(joints).filter_map(move |(axis, joint)| {
+        let degrees = q[joint].to_degrees();
+        let from_zero = degrees - zero.to_degrees();
+        let edge = (from_zero / 90.0).round();
+        let is_near = (from_zero - 90.0 * edge).abs() < CONFIGURATION_EDGE.to_degrees();
+        is_near.then(|| {
+            let words = format!(
+                "axis {} is {:.4} deg, on the edge of a quarter: cf{axis} {} and {edge:.0} both \
+                 name it",
+                axis,
+                degrees + 0.0,
+                edge - 1.0,
+            );
+            Finding::new(Code::ConfdataEdge, words)
+        })
+    }))
 }

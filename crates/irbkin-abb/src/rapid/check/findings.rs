@@ -117,7 +117,11 @@ fn of_one_cause(found: Vec<Finding>, modules: &[&Module]) -> Vec<Finding> {
             finding.message = format!("{} (with {words})", finding.message);
         }
         if others > 0 {
-            let what = if finding.calls.is_empty() { "move" } else { "call" };
+            let what = match finding.code {
+                Code::NameTwice => "name",
+                _ if finding.calls.is_empty() => "move",
+                _ => "call",
+            };
             let ending = if others == 1 { "" } else { "s" };
             finding.message = format!("{} (and {others} more {what}{ending})", finding.message);
         }

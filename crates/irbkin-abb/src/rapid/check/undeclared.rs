@@ -12,9 +12,12 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::statement::{Statement, StatementKind};
 use crate::rapid::data::table::Entry;
+use crate::rapid::data::value::DataType;
 use crate::rapid::expression::names::predefined_names;
+use crate::rapid::program::whole::Program;
 use crate::rapid::text::fault::RapidFaultKind;
 use crate::rapid::text::tokens::Tokens;
+use crate::rapid::text::words::words_of;
 use irbkin::{Interrupt, Interrupted};
 
 /// Longest parameters of a routine that calls are compared with [bytes]: each call reads them.
@@ -42,7 +45,7 @@ pub fn candidates(finding: &Finding, modules: &[&Module]) -> Vec<String> {
 
 /// Whether an unknown routine is an error, or may be in a module that is missing: without
 /// `is_whole`, in one that a calculated name leads to.
-fn may_be_elsewhere(modules: &[&Module], is_whole: Option<bool>) -> bool {
+pub(super) fn may_be_elsewhere(modules: &[&Module], is_whole: Option<bool>) -> bool {
     let is_one = |name: &str, of: &[&str]| of.iter().any(|it| it.eq_ignore_ascii_case(name));
     let is_open = |module: &&Module| {
         let is_encoded = module.faults.iter().any(|it| it.kind == RapidFaultKind::Encoded);
@@ -59,26 +62,41 @@ fn may_be_elsewhere(modules: &[&Module], is_whole: Option<bool>) -> bool {
     is_whole == Some(false) || modules.iter().any(is_open)
 }
 
-/// The findings on the calls of a program; `of_system` are modules that do not say that they are.
+/// The routine that a name in lower case refers to in a module: its name, and its parameters as its
+/// header has them; `...` if they are too long, have comments, which may have commas, or if several
+/// modules declare it.
+pub(super) fn signature<'m>(
+    program: &Program<'m>,
+    module: usize,
+    lower: &str,
+) -> Option<(&'m str, &'m str)> {
+    let (_, Routine { name, header, .. }) = program.callee(module, lower)?;
+    let inside = header.find('(').zip(header.rfind(')')).and_then(|(a, b)| header.get(a + 1..b));
+    let is_read = |it: &&str| it.len() <= LONGEST_PARAMETERS && !it.contains(['!', '<']);
+    let inside = inside.filter(is_read).filter(|_| !program.is_ambiguous(module, lower));
+    Some((name, inside.unwrap_or("...")))
+}
+
+/// The findings on the calls of a program, and on its `names` of data that nothing declares;
+/// `of_system` are modules that do not say that they are.
 pub(super) fn undeclared(
-    modules: &[&Module],
+    program: &Program<'_>,
     sources: &[&str],
+    names: Vec<Finding>,
     is_whole: Option<bool>,
     of_system: &[usize],
     interrupt: Interrupt<'_>,
 ) -> Result<Vec<Finding>, Interrupted> {
-    let mut routines: BTreeMap<String, Vec<(usize, &Routine)>> = BTreeMap::new();
-    for (index, module) in modules.iter().enumerate() {
-        for routine in &module.routines {
-            routines.entry(routine.name.to_lowercase()).or_default().push((index, routine));
-        }
-    }
+    let modules = program.modules.as_slice();
+    let marks = ["SYSMODULE", "NOVIEW", "VIEWONLY"];
+    let is_mark = |it: &String| marks.iter().any(|of| of.eq_ignore_ascii_case(it));
+    let is_of_system =
+        |index| of_system.contains(&index) || modules[index].attributes.iter().any(is_mark);
     let mut found = Vec::new();
     // The first finding on each name, and how often it is called.
     let mut unknown: BTreeMap<(String, Option<&str>), (usize, usize)> = BTreeMap::new();
     for (index, (module, source)) in modules.iter().zip(sources).enumerate() {
         let (tokens, unread) = (Tokens::of(source), unread_names(module));
-        let of_system = of_system.contains(&index) || is_of_system(module);
         for (at, call) in module.calls.iter().enumerate() {
             interrupt.check(at)?;
             let written = source.get(call.name.clone()).unwrap_or_default();
@@ -86,18 +104,7 @@ pub(super) fn undeclared(
             let name = written.rsplit(':').next().unwrap_or(written);
             let place = call.start;
             let lower = name.to_lowercase();
-            let all = routines.get(&lower).map_or(&[][..], Vec::as_slice);
-            let own = all.iter().find(|(home, _)| *home == index);
-            let other = || all.iter().find(|(_, routine)| !routine.is_local());
-            let known = own.or_else(other).map(|(_, routine)| {
-                let header = &routine.header;
-                let inside = header.find('(').zip(header.rfind(')'));
-                let inside = inside.and_then(|(a, b)| header.get(a + 1..b));
-                // A comment may have commas.
-                let is_read =
-                    |it: &&str| it.len() <= LONGEST_PARAMETERS && !it.contains(['!', '<']);
-                (&*routine.name, inside.filter(is_read).unwrap_or("..."))
-            });
+            let known = signature(program, index, &lower);
             let bare = || Entry::grouped(name, call.is_function).map(|it| (name, it));
             let finding = match (known, &call.wrong) {
                 (None, Some(wrong)) => Some(Finding::new(Code::WrongArguments, wrong.as_str())),
@@ -113,7 +120,7 @@ pub(super) fn undeclared(
                         let elsewhere = if place < call.name.start {
                             Some("it is looked for when the call is made")
                         } else {
-                            of_system.then_some("the system may have it")
+                            is_of_system(index).then_some("the system may have it")
                         };
                         let first = unknown.entry((lower, elsewhere)).or_insert((found.len(), 0));
                         first.1 += 1;
@@ -137,28 +144,28 @@ pub(super) fn undeclared(
     for (at, count) in unknown.values().filter(|(_, count)| *count > 1) {
         found[*at].message = format!("{} ({count} calls)", found[*at].message);
     }
-    if !unknown.is_empty() && may_be_elsewhere(modules, is_whole) {
-        let sure = known_slips(&found, modules);
-        let (missing, mut others): (Vec<Finding>, _) = found
-            .into_iter()
-            .partition(|it| it.unknown.as_ref().is_some_and(|it| !sure.contains(it)));
-        let names: Vec<String> = missing.iter().filter_map(|it| it.unknown.clone()).collect();
-        others.extend(missing.into_iter().next().map(|first| {
-            let message =
-                format!("no module that is here declares {}: modules are missing", listed(&names));
-            Finding { code: Code::MissingRoutines, unknown: None, message, ..first }
-        }));
-        return Ok(others);
-    }
-    Ok(found)
-}
-
-/// Whether a module is one of the system, by its attributes.
-fn is_of_system(module: &Module) -> bool {
-    let is_one = |it: &String| {
-        ["SYSMODULE", "NOVIEW", "VIEWONLY"].iter().any(|of| of.eq_ignore_ascii_case(it))
-    };
-    module.attributes.iter().any(is_one)
+    let is_own = |it: &Finding| !is_of_system(it.module);
+    found.extend(names.into_iter().filter(is_own));
+    let are_routines_elsewhere = may_be_elsewhere(modules, is_whole);
+    // Without main it is a part of a program, and the data may be in another.
+    let mut all = modules.iter().flat_map(|it| &it.routines);
+    let has_main = all.any(|it| it.name.eq_ignore_ascii_case("main"));
+    let are_data_elsewhere = are_routines_elsewhere || is_whole.is_none() && !has_main;
+    let sure = if are_data_elsewhere { known_slips(&found, modules) } else { Vec::new() };
+    let (missing, mut others): (Vec<Finding>, _) = found.into_iter().partition(|it| {
+        let is_elsewhere = match it.code {
+            Code::UnknownName => are_data_elsewhere,
+            _ => are_routines_elsewhere,
+        };
+        is_elsewhere && it.unknown.as_ref().is_some_and(|it| !sure.contains(it))
+    });
+    let names: Vec<String> = missing.iter().filter_map(|it| it.unknown.clone()).collect();
+    others.extend(missing.into_iter().next().map(|first| {
+        let message =
+            format!("no module that is here declares {}: modules are missing", listed(&names));
+        Finding { code: Code::MissingRoutines, unknown: None, message, ..first }
+    }));
+    Ok(others)
 }
 
 /// The finding on a call of a routine that nothing declares: a note if it may be elsewhere.
@@ -190,7 +197,8 @@ fn statement(text: &str, start: usize) -> &str {
 fn known_slips(found: &[Finding], modules: &[&Module]) -> Vec<String> {
     let unknown = found.iter().filter_map(|it| it.unknown.as_deref()).take(MOST_COMPARED);
     let routines = modules.iter().flat_map(|it| &it.routines).map(|it| it.name.as_str());
-    let known: Vec<&str> = routines.chain(Entry::all().map(|it| it.0)).collect();
+    let data = modules.iter().flat_map(|it| &it.data).map(|it| it.name.as_str());
+    let known: Vec<&str> = routines.chain(data).chain(Entry::all().map(|it| it.0)).collect();
     let slips = unknown.filter(|name| known.iter().any(|it| is_slip(it, name)));
     slips.map(ToString::to_string).collect()
 }
@@ -226,4 +234,66 @@ fn is_slip(a: &str, b: &str) -> bool {
         (0, 1) => is_letter(b, begin),
         _ => false,
     }
+}
+
+/// The types of data that are looked for.
+const TYPES: [DataType; 4] =
+    [DataType::RobTarget, DataType::JointTarget, DataType::ToolData, DataType::WobjData];
+
+/// The targets, tools, work objects and routines of a program that nothing in its texts names but
+/// their declaration. A name in a string counts: `%"rPart"+num%` calls a routine.
+pub(super) fn unused(modules: &[&Module], sources: &[&str]) -> Vec<Finding> {
+    // How often each name is declared, less how often it is written.
+    let mut left: BTreeMap<String, isize> = BTreeMap::new();
+    for module in modules {
+        let data = module.data().iter().map(|datum| &datum.name);
+        for name in data.chain(module.routines().iter().map(|routine| &routine.name)) {
+            *left.entry(name.to_lowercase()).or_default() += 1;
+        }
+    }
+    let mut word = String::new();
+    for text in sources {
+        for line in text.lines() {
+            for part in words(line) {
+                word.clear();
+                word.extend(part.chars().flat_map(char::to_lowercase));
+                if let Some(count) = left.get_mut(&word) {
+                    *count -= 1;
+                }
+            }
+        }
+    }
+    let is_unused = |name: &str| left.get(&name.to_lowercase()).is_some_and(|count| *count >= 0);
+    let mut found = Vec::new();
+    for (index, module) in modules.iter().enumerate() {
+        let mut add = |place: (usize, usize), routine: Option<String>, what: String| {
+            let finding = Finding::new(Code::Unused, "nothing in the program names it");
+            found.push(finding.placed(place, routine, 0, &what).in_module(index));
+        };
+        for datum in module.data() {
+            let own = datum.data_type;
+            let is_own = predefined_names(own).contains(&datum.name.to_lowercase());
+            if TYPES.contains(&own) && !is_own && is_unused(&datum.name) {
+                let what = format!("{} {}", own.name(), datum.name);
+                add((datum.line, datum.column), datum.routine.clone(), what);
+            }
+        }
+        for routine in module.routines() {
+            if !routine.name.eq_ignore_ascii_case("main") && is_unused(&routine.name) {
+                let what = format!("{} {}", routine.kind.name(), routine.name);
+                add((routine.line, routine.column), None, what);
+            }
+        }
+    }
+    found
+}
+
+/// The names in a line, in its strings too; not in its comment.
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    let mut is_string = false;
+    let comment = line.find(|character| {
+        is_string ^= character == '"';
+        character == '!' && !is_string
+    });
+    words_of(&line[..comment.unwrap_or(line.len())])
 }

@@ -40,26 +40,25 @@ impl<'a> Expression<'a> {
     pub(crate) fn collect_names(&self, names: &mut Vec<Name<'a>>) {
         match &self.form {
             Form::Name(name) => names.push(name.clone()),
-            Form::Reference(it) => {
-                names.push(it.name.clone());
-                it.indices.iter().for_each(|index| index.collect_names(names));
-            }
-            Form::Call(call) => {
-                names.push(call.name.clone());
-                call.arguments.required.iter().for_each(|it| it.collect_names(names));
-                let optional = call.arguments.optional.iter().filter_map(|it| it.value.as_ref());
-                optional.for_each(|it| it.collect_names(names));
-            }
-            Form::Aggregate(parts) => parts.iter().for_each(|it| it.collect_names(names)),
-            Form::Negated(operand) => operand.collect_names(names),
-            Form::Chain(first, rest) => {
-                first.collect_names(names);
-                for (_, operand) in rest {
-                    operand.collect_names(names);
-                }
-            }
-            // What is not evaluated depends on nothing.
+            Form::Reference(it) => names.push(it.name.clone()),
+            Form::Call(call) => names.push(call.name.clone()),
             _ => {}
+        }
+        self.parts().iter().for_each(|part| part.collect_names(names));
+    }
+
+    /// The expressions that it is made of.
+    pub(crate) fn parts(&self) -> Vec<&Self> {
+        match &self.form {
+            Form::Reference(it) => it.indices.iter().collect(),
+            Form::Call(call) => call.arguments.values().collect(),
+            Form::Aggregate(parts) | Form::Unread(_, parts) => parts.iter().collect(),
+            Form::Negated(operand) | Form::Not(operand) => Vec::from([&**operand]),
+            Form::Chain(first, rest) => {
+                core::iter::once(&**first).chain(rest.iter().map(|(_, it)| it)).collect()
+            }
+            Form::Compared(operands, _) => operands.iter().collect(),
+            _ => Vec::new(),
         }
     }
 
@@ -93,7 +92,7 @@ impl<'a> Expression<'a> {
                 Form::Compared(Box::new(operands.map(|it| it.owned(begin))), relation)
             }
             Form::Star => Form::Star,
-            Form::Unread(reason) => Form::Unread(reason),
+            Form::Unread(reason, parts) => Form::Unread(reason, all_owned(parts, begin)),
         };
         Expression { start: self.start - begin, end: self.end - begin, form }
     }
@@ -130,8 +129,8 @@ pub(crate) enum Form<'a> {
     Compared(Box<[Expression<'a>; 2]>, Relation),
     /// The teach pendant's `*`.
     Star,
-    /// Not evaluated, for this reason, whatever its names refer to.
-    Unread(Box<Reason>),
+    /// Not evaluated, for this reason, whatever its operands are.
+    Unread(Box<Reason>, Vec<Expression<'a>>),
 }
 
 /// A name, perhaps with indices, perhaps with components.
@@ -183,6 +182,11 @@ impl<'a> Arguments<'a> {
             after: it.after,
         });
         Arguments { required: all_owned(self.required, begin), optional: optional.collect() }
+    }
+
+    /// The values of all arguments, the required ones first.
+    pub(crate) fn values(&self) -> impl Iterator<Item = &Expression<'a>> {
+        self.required.iter().chain(self.optional.iter().filter_map(|it| it.value.as_ref()))
     }
 
     /// The value of the first optional argument that has this name, in any case, and a value.

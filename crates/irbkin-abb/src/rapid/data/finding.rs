@@ -24,7 +24,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 37] = [$(Self::$Code),*];
+            pub const ALL: [Self; 45] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -61,6 +61,8 @@ codes! {
     AbsentAxis "R106" "absent-axis";
     /// The points of a circle hardly determine it, or it is too long.
     UncertainCircle "R107" "uncertain-circle";
+    /// A move enters a world zone that stops the robot.
+    WorldZone "R108" "world-zone";
     /// No solution has the confdata of a target.
     WrongConfdata "C201" "wrong-confdata";
     /// A line or an arc arrives with another configuration than its target has.
@@ -100,6 +102,14 @@ codes! {
     UnknownRoutine "N606" "unknown-routine";
     /// A call has other arguments than what it calls.
     WrongArguments "N607" "wrong-arguments";
+    /// A statement names data or a signal that nothing declares.
+    UnknownName "N608" "unknown-name";
+    /// Two modules declare one global name.
+    NameTwice "N609" "name-twice";
+    /// A function returns no value.
+    NoReturn "N610" "no-return";
+    /// A task waits for others that never come.
+    SyncDeadlock "M101" "sync-deadlock";
     /// A target, a tool or a work object is not a frame, or tool and work object do not go
     /// together.
     InvalidFrame "D701" "invalid-frame";
@@ -109,6 +119,10 @@ codes! {
     ExternalAxes "D703" "external-axes";
     /// The index of an array is none of its elements.
     NoSuchElement "D704" "no-such-element";
+    /// A value of another type is assigned or passed.
+    WrongType "D705" "wrong-type";
+    /// A constant or the counter of a FOR is assigned.
+    ReadOnly "D706" "read-only";
     /// A value is not in the text.
     UnknownValue "U801" "unknown-value";
     /// An instruction that moves the robot is not followed.
@@ -117,6 +131,8 @@ codes! {
     ConfdataEdge "U803" "confdata-edge";
     /// A mechanical unit that carries the robot or moves a work object is not known.
     UnknownUnit "U804" "unknown-unit";
+    /// Names that nothing declares are taken for signals, which are not known.
+    UnknownSignal "U805" "unknown-signal";
     /// Statements that are never executed.
     NeverRun "U806" "never-run";
     /// Nothing in a program names a target, a tool, a work object or a routine of it.
@@ -296,7 +312,12 @@ impl Finding {
     /// How much it matters.
     #[must_use]
     pub fn severity(&self) -> Severity {
-        if self.assumed.is_some() { Severity::Note } else { self.code.severity() }
+        match (&self.assumed, self.code) {
+            (None, code) => code.severity(),
+            // Files that are given together may be alternatives.
+            (Some(_), Code::NameTwice | Code::SyncDeadlock) => Severity::Warning,
+            _ => Severity::Note,
+        }
     }
 
     pub(crate) fn place(&self) -> Place {
@@ -342,7 +363,8 @@ impl Finding {
     /// At a statement before a move.
     pub(crate) fn at_statement(self, statement: &Statement, move_index: usize) -> Self {
         let Statement { line, column, routine, text, .. } = statement;
-        self.placed((*line, *column), routine.as_deref().map(String::from), move_index, text)
+        let what = text.trim_end_matches(';');
+        self.placed((*line, *column), routine.as_deref().map(String::from), move_index, what)
     }
 
     /// At a place of the text, with the instruction before the words.

@@ -9,7 +9,6 @@ pub(crate) mod lookup;
 pub(crate) mod module;
 pub(crate) mod moves;
 pub(crate) mod moving;
-mod options;
 pub(crate) mod own_types;
 pub(crate) mod records;
 pub(crate) mod settings;

@@ -208,7 +208,8 @@ pub(crate) enum Condition {
     Compared(Box<[Expression<'static>; 2]>, Relation),
     /// Whether what is tested is one of some numbers.
     Case(Vec<Expression<'static>>),
-    Other,
+    /// Not evaluated; the expression, if it is read.
+    Other(Option<Box<Expression<'static>>>),
 }
 
 impl Condition {
@@ -220,12 +221,15 @@ impl Condition {
             }
             _ => None,
         };
+        let presence = match &expression.form {
+            Form::Not(of) => present(&of.form).map(|it| Self::Present(it, false)),
+            form => present(form).map(|it| Self::Present(it, true)),
+        };
         match expression.form {
             Form::Bool(true) => Self::Always,
             Form::Bool(false) => Self::Never,
             Form::Compared(numbers, relation) => Self::Compared(numbers, relation),
-            Form::Not(of) => present(&of.form).map_or(Self::Other, |it| Self::Present(it, false)),
-            form => present(&form).map_or(Self::Other, |it| Self::Present(it, true)),
+            _ => presence.unwrap_or_else(|| Self::Other(Some(Box::new(expression)))),
         }
     }
 }

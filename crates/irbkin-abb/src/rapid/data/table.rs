@@ -10,7 +10,6 @@ use super::moves::MoveKind::{self, MoveAbsJ, MoveC, MoveExtJ, MoveJ, MoveL};
 use super::moving::{
     AFTER, ALONG, EXTERNAL, Layout, MoveInstruction, PLAIN, SEARCH, SEARCH_EXTERNAL, STOPS, THEN,
 };
-use super::options::OPTIONS;
 
 /// An instruction or a function of RAPID.
 #[doc(hidden)]
@@ -134,7 +133,7 @@ static TABLE: &[Entry] = &[
     goes("CapC", MoveC, ALONG, concat!(via!(), ",capdata Cdata", more!())),
     goes("CapL", MoveL, ALONG, concat!(to!(), ",capdata Cdata", more!())),
     does("CirPathMode", r"\switch PathFrame|switch ObjectFrame|switch CirPointOri|switch Wrist45|switch Wrist46|switch Wrist56", Sets),
-    function("CJointT", r"\string TaskRef|string TaskName"),
+    function("CJointT", r"\taskid TaskRef|string TaskName"),
     call("Clear", "INOUT num Name"),
     call("ClearIOBuff", "iodev IODevice"),
     call("ClearRawBytes", r"INOUT rawbytes RawData\num FromIndex"),
@@ -155,12 +154,12 @@ static TABLE: &[Entry] = &[
     call("CorrWrite", "corrdescr Descr,pos Data"),
     function("Cos", "num Angle"),
     function("CPos", r"\tooldata Tool\wobjdata WObj"),
-    function("CRobT", r"\string TaskRef|string TaskName\tooldata Tool\wobjdata WObj"),
+    function("CRobT", r"\taskid TaskRef|string TaskName\tooldata Tool\wobjdata WObj"),
     function("CrossProd", "pos Vector1,pos Vector2"),
     function("CSpeedOverride", r"\switch CTask"),
     goes("CSSDeactMoveL", MoveL, STOPS, concat!(to!(), ",...", meets!())),
-    function("CTool", r"\string TaskRef|string TaskName"),
-    function("CWObj", r"\string TaskRef|string TaskName"),
+    function("CTool", r"\taskid TaskRef|string TaskName"),
+    function("CWObj", r"\taskid TaskRef|string TaskName"),
     goes("DaProcMJ", MoveJ, ALONG, concat!(to!(), ",...", more!())),
     goes("DaProcML", MoveL, ALONG, concat!(to!(), ",...", more!())),
     call("DeactUnit", "mecunit MechUnit"),
@@ -204,7 +203,7 @@ static TABLE: &[Entry] = &[
     function("FileSize", "string Path"),
     function("FileTime", r"string Path\..."),
     function("FSSize", r"string Name\..."),
-    call("GetDataVal", r"string Object\datapos Block|string TaskRef|string TaskName,INOUT anytype Value"),
+    call("GetDataVal", r"string Object\datapos Block|taskid TaskRef|string TaskName,INOUT anytype Value"),
     call("GetJointData", r"\mecunit MechUnit,num Axis\..."),
     function("GetMecUnitName", "mecunit MechUnit"),
     function("GetMotorTorque", r"\mecunit MecUnit,num Axis"),
@@ -319,6 +318,8 @@ static TABLE: &[Entry] = &[
     function("PathRecValidBwd", r"\pathrecid ID"),
     function("PathRecValidFwd", r"\pathrecid ID"),
     call("PathResol", "num Value"),
+    // It adds to the displacement: which one is then not known.
+    does("PDispAdd", "...", Displaces(Between)),
     does("PDispOff", "", Displaces(Off)),
     does("PDispOn", r"\switch Rot\robtarget ExeP,robtarget ProgPoint,tooldata Tool\wobjdata WObj", Displaces(Between)),
     does("PDispSet", "pose DispFrame", Displaces(Given)),
@@ -341,7 +342,7 @@ static TABLE: &[Entry] = &[
     function("ReadMotor", r"\mecunit MecUnit,num Axis"),
     function("ReadNum", r"iodev IODevice\string Delim\num Time"),
     call("ReadRawBytes", r"iodev IODevice,INOUT rawbytes RawData\num Time"),
-    function("ReadStr", r"iodev IODevice\string Delim\switch RemoveCR\switch DiscardHeaders\num Time"),
+    function("ReadStr", r"iodev IODevice\string Delim\switch RemoveCR\switch DiscardHeaders\num Time\..."),
     function("ReadStrBin", r"iodev IODevice,num NoOfChars\num Time"),
     function("RelTool", r"robtarget Point,num Dx,num Dy,num Dz\num Rx\num Ry\num Rz"),
     call("RemoveAllCyclicBool", r"\..."),
@@ -361,10 +362,12 @@ static TABLE: &[Entry] = &[
     call("RMQSendMessage", r"rmqslot Slot,anytype SendData\num UserDef"),
     function("Round", r"num Val\num Dec"),
     function("RunMode", r"\switch Main"),
-    call("Save", r"\string TaskRef|string TaskName,string ModuleName\string FilePath\string File"),
+    call("Save", r"\taskid TaskRef|string TaskName,string ModuleName\string FilePath\string File"),
     call("SaveCfgData", r"string FilePath\string File,cfgdomain Domain"),
     does("SCSSDeactMoveL", "...", Moves),
     does("Search_1D", "...", Moves),
+    does("Search_Groove", "...", Moves),
+    does("Search_Part", "...", Moves),
     goes("SearchC", MoveC, SEARCH, concat!(r"\switch Stop|switch PStop|switch SStop|switch Sup,signaldi Signal\...,INOUT robtarget SearchPoint,", via!(), with!())),
     goes("SearchExtJ", MoveExtJ, SEARCH_EXTERNAL, concat!(r"\switch Stop|switch PStop|switch SStop|switch Sup,signaldi Signal\...,INOUT jointtarget SearchJointPos,", joints!(), r"\...")),
     goes("SearchL", MoveL, SEARCH, concat!(r"\switch Stop|switch PStop|switch SStop|switch Sup,signaldi Signal\...,INOUT robtarget SearchPoint,", to!(), with!())),
@@ -373,7 +376,7 @@ static TABLE: &[Entry] = &[
     call("SetAllDataVal", r"string Type\string TypeMod\string Object\switch Hidden,anytype Value"),
     call("SetAO", "signalao Signal,num Value"),
     call("SetDataSearch", r"string Type\..."),
-    call("SetDataVal", r"string Object\datapos Block|string TaskRef|string TaskName,anytype Value"),
+    call("SetDataVal", r"string Object\datapos Block|taskid TaskRef|string TaskName,anytype Value"),
     call("SetDO", r"\num SDelay|switch Sync,signaldo Signal,dionum Value"),
     call("SetGO", r"\num SDelay,signalgo Signal,num Value"),
     call("SetLeadThrough", r"\..."),
@@ -579,11 +582,11 @@ const OTHER_FUNCTIONS: &str = "CalcRotAxFrameZ CalcRotAxisFrame CapGetFailSigs D
     g_GetPos g_GetPressure1 g_GetPressure2 g_IsCalibrated g_IsInPos GetAxisDistance \
     GetAxisMoveTime GetNextCyclicBool GetNextMechUnit GetServiceInfo GetSignal GetTSPStatus \
     Hand_GetActualPos Hand_GetStatus Hand_GetVacuumPressure1 Hand_GetVacuumPressure2 \
-    Hand_IsCalibrated MaxExtLinearSpeed MaxExtReorientSpeed MaxRobReorientSpeed OffsToolPolar \
-    OffsToolXYZ ParIdPosValid ParIdRobValid PMgrAtSafe PMgrAtService PMgrAtState PMgrAtStation \
-    PMgrNextStation PMgrTaskName PMgrTaskNumber PrxGetMaxRecordpos ReadVar STCalcForce \
-    STCalcTorque STIsCalib STIsClosed STIsIndGun STIsOpen SwGetCurrSpotName SwGetCurrTargetName \
-    TaskIsActive TaskIsExecuting UIDnumTune UIListView UINumTune";
+    Hand_IsCalibrated MaxExtLinearSpeed MaxExtReorientSpeed MaxRobReorientSpeed OFrameChange \
+    OffsToolPolar OffsToolXYZ ParIdPosValid ParIdRobValid PMgrAtSafe PMgrAtService PMgrAtState \
+    PMgrAtStation PMgrNextStation PMgrTaskName PMgrTaskNumber PoseAdd PrxGetMaxRecordpos ReadVar \
+    STCalcForce STCalcTorque STIsCalib STIsClosed STIsIndGun STIsOpen SwGetCurrSpotName \
+    SwGetCurrTargetName TaskIsActive TaskIsExecuting UIDnumTune UIListView UINumTune";
 
 impl Entry {
     fn of(name: &str) -> Option<&'static Self> {
@@ -635,6 +638,55 @@ impl Entry {
         }))
     }
 }
+
+/// Names with arguments that are not known, and whether they are functions.
+pub(super) static OPTIONS: [(&str, &str, bool); 15] = [
+    // RobotWare; of `FitSphere` there is only a program that calls it.
+    (
+        "CornerPathWarning FitCircle FitSphere IoCtrlAxis_RefSync IoCtrlAxis_RefSyncOff \
+            IoCtrlAxis_RefSyncOn SoftElbow",
+        "...",
+        false,
+    ),
+    // `LINKEDM.sys`, which is in backups of IRC5, and `HandDriver.sys` of a YuMi.
+    ("Linked_m Linked_m_exe EventLog", "...", false),
+    // Conveyor Tracking.
+    ("CnvPredictReach GetMaxUsageTime ResetMaxUsageTime UseReachableTargets", "...", false),
+    // PickMaster: 3HAC064218, and ABB's `PMppa340.prg` in public repositories.
+    ("AckItmTgt FlushItmSrc GetItmTgt NewItmSrc NextItmTgtType QStartItmSrc", "...", false),
+    ("QStopItmSrc ResetFlowCount", "...", false),
+    // Palletizing: ABB's `PmMain.mod` and `PmProjServer.mod`, and a list of its PowerPac.
+    (
+        "PmAckTarget PmCalcArmConf PmCalcIntermid PmErrorLog PmGetFlow PmGetFlowInfo \
+            PmGetOperation PmGetProjectInfo PmGetWaInfo PmSetRecoverAction PmStartFlow \
+            PmStartProj PmStopFlow PmStopProj PmWaitProjStart",
+        "...",
+        false,
+    ),
+    ("PmGetTarget PmGetTgtAction PmSetDefaultHeight", "...", true),
+    // Paint.
+    ("ConsoleWrite IpsSetParam PntProdUserLog UseBrushTab", "...", false),
+    (
+        "IndexLookup IpsCommand IpsGetParam PaintCommand PntQueueExtraGet PntQueueExtraSet \
+            PntQueuePeek",
+        "...",
+        true,
+    ),
+    // Tool changers.
+    ("TcCloseCover TcDropOffTool TcLockTool TcOpenCover TcPickupTool TcUnlockTool", "...", false),
+    // Dispensing.
+    ("SyncWWObj", "...", false),
+    ("GetSignalDnum", "...", true),
+    // Continuous Application Platform.
+    ("CapAPTrSetupAI CapAPTrSetupAO CapAPTrSetupPERS CAPSetStopMode", "...", false),
+    // Homepos-Running.
+    (
+        "HR_Exit HR_ExitCycle HR_SavePos HR_SetMoveToStartPos HR_SetTypeDIndex HR_SetTypeIndex",
+        "...",
+        false,
+    ),
+    ("HR_GetTypeDIndex HR_GetTypeIndex HR_RobotInHome", "...", true),
+];
 
 #[cfg(test)]
 mod tests {

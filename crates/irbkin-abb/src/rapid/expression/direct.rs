@@ -8,8 +8,8 @@ use super::evaluate::whole;
 use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::types::{Atom, Atoms, Shape, Type};
 use crate::rapid::data::value::{DataType, Value};
-use crate::rapid::text::literals::{decimal, unquoted};
 use crate::rapid::text::tokens::{LONGEST_STRING, Tokens, behind_blanks};
+use crate::rapid::text::tokens::{decimal, unquoted};
 use crate::rapid::text::words::end_of_word;
 
 /// A value of a type up to the symbol that ends it.

@@ -30,6 +30,11 @@ pub(crate) fn displaces(name: &str) -> bool {
     ["Offs", "RelTool"].iter().any(|own| own.eq_ignore_ascii_case(name))
 }
 
+/// The type of what a function of RAPID returns, by its name in any case, if that is known.
+pub(crate) fn result_of(name: &str) -> Option<&'static str> {
+    Function::named(name).map(|it| it.result.name)
+}
+
 /// A function of RAPID.
 pub(super) struct Function {
     name: &'static str,

@@ -6,6 +6,4 @@ pub(crate) mod evaluate;
 pub(crate) mod functions;
 mod geometry;
 pub(crate) mod names;
-mod operators;
 pub(crate) mod reader;
-pub(crate) mod references;

@@ -173,6 +173,27 @@ pub(crate) fn predefined_names(data_type: DataType) -> Vec<String> {
     }
 }
 
+/// How the names of RAPID's other constants begin, in lower case. Source: the word list of
+/// KnoP-01/rapid-for-vim.
+const FAMILIES: &str = "aio_ aw_ btn busstate_ c_motset c_progdisp cap_ corr_ css_ ct_ diskhome diskram disktemp ee_ \
+    egm_ err_ errstr_ event_ fc_ flp1 fllwtime gap_ handler_ icon inpos iobus_ iounit_ irbp_ level_ \
+    ltapp__ mpm_ op_ pm_ rob_ run_ sen_ sigorig_ socket_ state_ stoptime str_ sys_ tc_ tp_ \
+    trigg_mode tsp_ tune_ type_ usbdisk vlin vrot";
+
+/// More constants, in lower case, and the data of ABB's module `user`.
+const CONSTANTS: &str = "clock1 dint edge end_of_list eof eof_bin eof_num eq errno gt gteq high \
+    int intno lint low lt lteq noteq opadd opdiv opmod opmult opsub reg1 reg2 reg3 reg4 reg5 \
+    resabort rescancel resignore resno resok resretry resunkwn resyes sint stempty timeout udint \
+    uint ulint usint wait_max";
+
+/// Whether a name in lower case is a constant of RAPID without a value here, or a datum of `user`.
+pub(crate) fn is_constant(lower: &str) -> bool {
+    let is_of_type = ["_domain", "_err", "_mode"].iter().any(|end| lower.ends_with(end));
+    is_of_type
+        || CONSTANTS.split(' ').any(|it| it == lower)
+        || FAMILIES.split(' ').any(|begin| lower.starts_with(begin))
+}
+
 /// The datum of RAPID's own with a name in lower case.
 pub(crate) fn predefined(lower: &str) -> Option<Value> {
     match lower.as_bytes().first()? {

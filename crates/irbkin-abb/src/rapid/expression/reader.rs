@@ -82,12 +82,13 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         if let (Connective::Relation(relation), None, false) = (first, next, is_negation) {
             return Ok(self.made(start, Form::Compared(Box::new([left, right]), relation)));
         }
+        let mut operands = Vec::from([left, right]);
         while next.is_some() {
-            self.sum()?;
+            operands.push(self.sum()?);
             next = self.connective()?;
         }
         let reason = if is_negation { Reason::Negation } else { Reason::Operator };
-        Ok(self.made(start, Form::Unread(Box::new(reason))))
+        Ok(self.made(start, Form::Unread(Box::new(reason), operands)))
     }
 
     /// Read what is between two operands of a condition, if it is next.
@@ -265,7 +266,10 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             (0, true, Form::Number(value)) => Form::Number(-value),
             (0, true, form) => Form::Negated(Box::new(Expression { form, ..operand })),
             (1, false, form) => Form::Not(Box::new(Expression { form, ..operand })),
-            _ => Form::Unread(Box::new(Reason::Negation)),
+            (_, _, form) => {
+                let operand = Expression { form, ..operand };
+                Form::Unread(Box::new(Reason::Negation), Vec::from([operand]))
+            }
         };
         Ok(Expression { form, ..operand })
     }
@@ -292,7 +296,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             TokenKind::Symbol(b'(') => return self.parenthesis(token),
             TokenKind::Placeholder => {
                 self.tokens.take()?;
-                Form::Unread(Box::new(Reason::Unfinished))
+                Form::Unread(Box::new(Reason::Unfinished), Vec::new())
             }
             TokenKind::Name => self.name(token)?,
             _ => return Err(self.tokens.lacking("a value")),
@@ -402,7 +406,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         let mark = self.tokens.peek();
         if self.tokens.take_if(b'?')? {
             self.expression()?;
-            let form = Form::Unread(Box::new(Reason::OptionalArgument));
+            let form = Form::Unread(Box::new(Reason::OptionalArgument), Vec::new());
             return Ok((name, Some(self.made(mark.start, form))));
         }
         Ok((name, self.assigned()?))

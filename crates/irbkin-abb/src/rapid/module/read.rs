@@ -113,6 +113,7 @@ const BY_SHAPE: [DataType; 6] = [
 ///
 /// [`Error::Rapid`] when the text is invalid, of another kind, or is followed by more text.
 pub fn parse_record(text: &str) -> Result<Value, Error> {
+    use RapidFaultKind::{ComponentCount, ComponentType, NotWhole};
     let mut broken = None;
     for data_type in BY_SHAPE {
         // The text keeps its own lines, after one that is not reported.
@@ -125,21 +126,16 @@ pub fn parse_record(text: &str) -> Result<Value, Error> {
                     return Ok(value.clone());
                 }
             }
-            Err(Error::Rapid(fault)) if is_of_another_type(&fault.kind) => {}
-            Err(Error::Rapid(fault)) => {
-                broken = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault });
-            }
+            Err(Error::Rapid(fault)) => match fault.kind {
+                // The text may be a value of another type.
+                ComponentCount { .. } | ComponentType { .. } | NotWhole { .. } => {}
+                _ => broken = Some(RapidFault { line: fault.line.saturating_sub(1), ..fault }),
+            },
             Err(error) => return Err(error),
         }
     }
     let none = || RapidFault::nowhere(RapidFaultKind::NoRecord { text: excerpt(text) });
     Err(broken.unwrap_or_else(none).into())
-}
-
-/// Whether the text may be a value of another type.
-fn is_of_another_type(kind: &RapidFaultKind) -> bool {
-    use RapidFaultKind::{ComponentCount, ComponentType, NotWhole};
-    matches!(kind, ComponentCount { .. } | ComponentType { .. } | NotWhole { .. })
 }
 
 impl Module {

@@ -1,19 +1,23 @@
 //! Go through the moves of a routine in order and follow each of them.
 
+use alloc::format;
 use alloc::vec::Vec;
 
 use super::goal::{Conf, Goal, Place};
-use super::joints::{Path, Samples, joint_line, round_joints, solved, way};
+use super::joints::{Path, Samples, joint_line, nearest_written, round_joints, solved, way};
 use crate::Error;
+use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::calc::frames::Frames;
-use crate::rapid::calc::wrong::{OrFinding, broken, no_path};
-use crate::rapid::data::finding::Finding;
+use crate::rapid::calc::wrong::{OrFinding, broken, no_path, passes};
+use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::settings::{CirPathMode, SingArea};
-use crate::rapid::motion::thresholds::JOINED_MOVES;
+use crate::rapid::motion::thresholds::{
+    ELBOW_ZONE, JOINED_MOVES, NEAR_CONFDATA, NEAR_CONFDATA_OF_LINE, SHOULDER_ZONE,
+};
 use irbkin::follow::{BreakReason, SingularityMode};
 use irbkin::internal::largest_step;
-use irbkin::thresholds::MOST_REACH;
-use irbkin::{Configuration, Interrupt, Pose, Robot, SingularityKind};
+use irbkin::thresholds::{CONFIGURATION_EDGE, MOST_REACH, WRIST_ZONE};
+use irbkin::{Configuration, Interrupt, Pose, Robot, SingularityKind, Slot};
 use irbkin_motion::Error as MotionError;
 use irbkin_motion::internal::{Corner, Leg, MOST_SAMPLES, Rounded, part};
 use irbkin_motion::paths::{ArcOrientation, Spacing};
@@ -378,4 +382,107 @@ pub(super) fn apart<const N: usize>(
         SingularityMode::LockAxis4 => BreakReason::Locked,
         _ => BreakReason::Jump { joint, by, kinds: SingularityKind::empty() },
     })
+}
+
+impl<const N: usize> Drive<'_, '_, N> {
+    /// The joints at the target of a line or an arc, and whether they have its configuration.
+    pub(super) fn arrived(&mut self, index: usize, end: &[f64; N], is_rounded: bool) -> [f64; N] {
+        let goal = &self.goals[index];
+        let Some(Place::Tool(pose, wanted)) = goal.place else { return *end };
+        let pose = goal.frames.flange(&pose);
+        let mut q = *end;
+        if is_rounded && let Ok(nearest) = self.flange.ik_nearest_at(&pose, end, wanted.arm_angle) {
+            q = nearest;
+        }
+        if !goal.step.settings.conf_l {
+            return q;
+        }
+        let found = self.flange.configuration(&q).unwrap_or_default();
+        let confdata = wanted.configuration;
+        let before = self.other.take();
+        let is_met = || {
+            self.flange
+                .ik_configured(&pose, wanted.near(q))
+                .is_ok_and(|solution| apart(&solution.q, &q, SingularityMode::Through).is_none())
+        };
+        if found == confdata || is_met() {
+            return q;
+        }
+        let is_nearest = |by: f64| {
+            nearest_written(self.flange, &pose, &wanted)
+                .is_none_or(|(_, least)| by <= least.by + CONFIGURATION_EDGE)
+        };
+        let over = over_quarters(self.flange, &q, confdata).filter(|over| {
+            over.by <= NEAR_CONFDATA || over.by <= NEAR_CONFDATA_OF_LINE && is_nearest(over.by)
+        });
+        if let Some(over) = over {
+            self.found(index, near(&over, confdata, found));
+        } else {
+            let words = format!(
+                "arrives with the configuration {found}, its target has {confdata}: correct its \
+                 confdata, or program ConfL\\Off"
+            );
+            // As of the move before: the branch is the cause, not each target.
+            let is_same = |it: &(_, _, usize)| (it.0, it.1) == (confdata, found);
+            let since = before.filter(is_same).map_or(index, |it| it.2);
+            self.other = Some((confdata, found, since));
+            let finding = Finding::new(Code::OtherConfiguration, words);
+            self.found(index, finding.caused_by(format!("{since}")));
+        }
+        q
+    }
+}
+
+/// The bit of cfx that is the side of the wrist.
+const WRIST_SIDE: i32 = 1;
+
+impl<const N: usize> Drive<'_, '_, N> {
+    /// Report the singularities that a line or an arc passes: of each kind the nearest place.
+    pub(super) fn check_singularities(&mut self, index: usize, here: &Here<N>, path: &Path<N>) {
+        let is_off = self.goals[index].step.settings.sing_area == SingArea::Off;
+        let kinds = [
+            (SingularityKind::WRIST, 1, WRIST_ZONE),
+            (SingularityKind::ELBOW, 2, ELBOW_ZONE),
+            (SingularityKind::SHOULDER, 4, SHOULDER_ZONE),
+        ];
+        let mut nearest = [(f64::INFINITY, 0); 3];
+        let mut last = self.robot.slot_of(&here.q).map(Slot::index);
+        for (sample, q) in path.q.iter().enumerate() {
+            let Some(at) = self.robot.singular_distances(q) else { return };
+            let slot = self.robot.slot_of(q).map(Slot::index);
+            let crossed = slot.zip(last).map_or(0, |(slot, last)| slot ^ last);
+            last = slot;
+            let distances = [at.wrist, at.elbow, at.shoulder];
+            for ((kind, distance), near) in kinds.iter().zip(distances).zip(&mut nearest) {
+                let distance = if crossed & kind.1 == 0 { distance } else { 0.0 };
+                if distance < near.0 {
+                    *near = (distance, sample + 1);
+                }
+            }
+        }
+        for ((kind, _, bound), (distance, sample)) in kinds.into_iter().zip(nearest) {
+            if distance < bound && (is_off || kind != SingularityKind::WRIST) {
+                let part = part(sample, path.q.len());
+                self.found(index, passes(kind, part, distance).with_value(distance, bound));
+            }
+        }
+    }
+
+    /// The joints along poses of the flange at whose end the wrist is on the other side: its axes
+    /// go evenly to the programmed configuration.
+    pub(super) fn turned_over(
+        &self,
+        goal: &Goal<'_, N>,
+        flanges: &[Pose],
+        from: &[f64; N],
+    ) -> Option<Vec<[f64; N]>> {
+        let (Some(Place::Tool(_, wanted)), true) = (goal.place, goal.step.settings.conf_l) else {
+            return None;
+        };
+        if self.flange.configuration(from).ok()?.cfx ^ wanted.configuration.cfx != WRIST_SIDE {
+            return None;
+        }
+        let to = self.flange.ik_configured(flanges.last()?, wanted.near(*from)).ok()?;
+        self.flange.with_even_wrist(flanges, [from, &to.q], self.interrupt)
+    }
 }

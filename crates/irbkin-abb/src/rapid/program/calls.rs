@@ -9,8 +9,7 @@ use core::mem;
 
 use super::cases::Known;
 use super::effects::{Acts, MOST_CALLED};
-use super::frame::{Frame, Site, Text};
-use super::state::{Local, Locals, MOST_KNOWN};
+use super::state::{Frame, Local, Locals, MOST_KNOWN, Site, Text};
 use super::values::Calls;
 use super::walker::Walk;
 use super::whole::Program;

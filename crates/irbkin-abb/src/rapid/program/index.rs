@@ -23,10 +23,10 @@ pub(in crate::rapid) struct Index<'m> {
     pub(in crate::rapid) modules: Vec<&'m Module>,
     /// The routines of each module by their names in lower case.
     routines: Vec<BTreeMap<String, &'m Routine>>,
-    /// The first module that has a global procedure, by its name in lower case.
-    global_procedures: BTreeMap<String, usize>,
-    /// The first module that has a global datum, by its name in lower case.
-    global_data: BTreeMap<String, usize>,
+    /// The modules that have a global routine, by its name in lower case: the first one counts.
+    global_routines: BTreeMap<String, Vec<usize>>,
+    /// The modules that have a global datum, by its name in lower case: the first one counts.
+    global_data: BTreeMap<String, Vec<usize>>,
     /// The data of the routines of each module by the names of routines and data in lower case.
     locals: Vec<BTreeMap<String, BTreeMap<String, usize>>>,
     /// Names in lower case of the data of each module that are not read.
@@ -36,11 +36,11 @@ pub(in crate::rapid) struct Index<'m> {
 }
 
 impl<'m> Index<'m> {
-    pub(super) fn new(modules: &[&'m Module]) -> Self {
+    pub(in crate::rapid) fn new(modules: &[&'m Module]) -> Self {
         let mut names = Self {
             modules: modules.to_vec(),
             routines: Vec::with_capacity(modules.len()),
-            global_procedures: BTreeMap::new(),
+            global_routines: BTreeMap::new(),
             global_data: BTreeMap::new(),
             locals: modules.iter().map(|module| locals(module)).collect(),
             unread: modules.iter().map(|module| unread(module)).collect(),
@@ -50,15 +50,15 @@ impl<'m> Index<'m> {
             let mut own = BTreeMap::new();
             for routine in &module.routines {
                 let name = routine.name.to_lowercase();
-                if routine.kind == RoutineKind::Proc && !routine.is_local() {
-                    names.global_procedures.entry(name.clone()).or_insert(index);
+                if !routine.is_local() {
+                    names.global_routines.entry(name.clone()).or_default().push(index);
                 }
                 own.entry(name).or_insert(routine);
             }
             names.routines.push(own);
             for (name, datum) in &module.index {
                 if module.data.get(*datum).is_some_and(|it| it.scope != Scope::Local) {
-                    names.global_data.entry(name.clone()).or_insert(index);
+                    names.global_data.entry(name.clone()).or_default().push(index);
                 }
             }
         }
@@ -70,20 +70,38 @@ impl<'m> Index<'m> {
         self.routines.get(module)?.get(lower).copied()
     }
 
+    /// The routine that a name in lower case refers to in a module, and its module.
+    pub(in crate::rapid) fn callee(
+        &self,
+        module: usize,
+        lower: &str,
+    ) -> Option<(usize, &'m Routine)> {
+        let at = |home: usize| Some((home, self.routine(home, lower)?));
+        at(module).or_else(|| at(*self.global_routines.get(lower)?.first()?))
+    }
+
+    /// Whether several other modules declare what a name in lower case refers to in a module.
+    pub(in crate::rapid) fn is_ambiguous(&self, module: usize, lower: &str) -> bool {
+        let globals = [&self.global_routines, &self.global_data];
+        let are_others = |it: &Vec<usize>| it.len() > 1 && !it.contains(&module);
+        globals.iter().any(|it| it.get(lower).is_some_and(are_others))
+    }
+
     /// The module of the procedure that a name in lower case refers to in a module.
     pub(super) fn procedure(&self, module: usize, lower: &str) -> Option<usize> {
-        let own = self.routine(module, lower).filter(|it| it.kind == RoutineKind::Proc);
-        own.map(|_| module).or_else(|| self.global_procedures.get(lower).copied())
+        let (home, routine) = self.callee(module, lower)?;
+        (routine.kind == RoutineKind::Proc).then_some(home)
     }
 
     /// The module of the function that a name in lower case refers to in a module, and the type of
-    /// what it returns.
-    pub(super) fn function(&self, module: usize, lower: &str) -> Option<(usize, DataType)> {
-        let of = |home: usize| {
-            let is_seen = |it: &&Routine| home == module || !it.is_local();
-            Some((home, self.routine(home, lower).filter(is_seen)?.data_type?))
-        };
-        of(module).or_else(|| (0..self.modules.len()).find_map(of))
+    /// what it returns; `None` if several modules declare it.
+    pub(in crate::rapid) fn function(
+        &self,
+        module: usize,
+        lower: &str,
+    ) -> Option<(usize, DataType)> {
+        let (home, routine) = self.callee(module, lower)?;
+        Some((home, routine.data_type?)).filter(|_| !self.is_ambiguous(module, lower))
     }
 
     /// Whether a routine is a trap, by its name in lower case.
@@ -102,7 +120,7 @@ impl<'m> Index<'m> {
             let datum = *of.index.get(lower)?;
             Some((DatumId { module: home, datum }, of.data.get(datum)?))
         };
-        at(module).or_else(|| at(*self.global_data.get(lower)?))
+        at(module).or_else(|| at(*self.global_data.get(lower)?.first()?))
     }
 
     fn declared(&self, DatumId { module, datum }: DatumId) -> Option<&'m Datum> {
@@ -144,7 +162,7 @@ impl<'m> Index<'m> {
     }
 
     /// Why a name in lower case has no value, if it refers to a datum that is not read.
-    pub(super) fn unread(&self, module: usize, lower: &str) -> Option<&Unresolved> {
+    pub(in crate::rapid) fn unread(&self, module: usize, lower: &str) -> Option<&Unresolved> {
         let own = self.unread.get(module).and_then(|names| names.get(lower));
         own.or_else(|| self.unread.iter().find_map(|names| names.get(lower)))
     }
@@ -164,12 +182,12 @@ impl<'m> Index<'m> {
     }
 
     /// The statements of a routine, by its name in lower case.
-    pub(super) fn body(&self, module: usize, lower: &str) -> Option<&Body<'m>> {
+    pub(in crate::rapid) fn body(&self, module: usize, lower: &str) -> Option<&Body<'m>> {
         self.bodies.get(module)?.get(lower)
     }
 
     /// The parameters of a routine, by its name in lower case.
-    pub(super) fn parameters(&self, module: usize, lower: &str) -> &'m [Parameter] {
+    pub(in crate::rapid) fn parameters(&self, module: usize, lower: &str) -> &'m [Parameter] {
         self.routine(module, lower).map_or(&[], |it| &it.parameters)
     }
 

@@ -8,12 +8,10 @@
 mod calls;
 mod cases;
 mod effects;
-mod frame;
-mod index;
-mod loops;
+pub(super) mod index;
 mod moves;
 mod state;
-mod tree;
+pub(super) mod tree;
 mod values;
 pub(super) mod walk;
 pub(super) mod walker;

@@ -14,10 +14,10 @@ use crate::rapid::data::statement::{
 use crate::rapid::text::words::words_of;
 
 /// Statements in the order of the text.
-pub(super) type Block<'m> = Vec<Node<'m>>;
+pub(in crate::rapid) type Block<'m> = Vec<Node<'m>>;
 
 /// A statement, or a branch or a loop with its own.
-pub(super) enum Node<'m> {
+pub(in crate::rapid) enum Node<'m> {
     /// A move, by its index in the module.
     Move(usize, &'m Move),
     Setting(&'m Instruction),
@@ -40,11 +40,11 @@ pub(super) enum Node<'m> {
 }
 
 /// A part of a branch.
-pub(super) struct Part<'m> {
+pub(in crate::rapid) struct Part<'m> {
     /// Its first line.
     pub(super) head: &'m Statement,
     pub(super) condition: &'m Condition,
-    pub(super) block: Block<'m>,
+    pub(in crate::rapid) block: Block<'m>,
 }
 
 /// The number of statements in a block.
@@ -61,8 +61,8 @@ pub(super) fn size(block: &Block<'_>) -> usize {
 
 /// The statements of a routine.
 #[derive(Default)]
-pub(super) struct Body<'m> {
-    pub(super) main: Block<'m>,
+pub(in crate::rapid) struct Body<'m> {
+    pub(in crate::rapid) main: Block<'m>,
     /// The statements behind ERROR, UNDO and BACKWARD.
     pub(super) handlers: Vec<Block<'m>>,
 }

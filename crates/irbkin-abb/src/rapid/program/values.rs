@@ -8,9 +8,8 @@ use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
 use super::cases::{Choices, Known, MOST_CASES, Questions, saved_value};
-use super::frame::Frame;
 use super::index::DatumId;
-use super::state::{Displacement, State};
+use super::state::{Displacement, Frame, State};
 use super::tree::Part;
 use super::whole::Program;
 use crate::rapid::calc::wrong::not_solved;
@@ -174,21 +173,19 @@ impl<'s> Scope<'s, '_> {
             return number;
         }
         let number = self.calls.question();
-        if words_of(text).all(|word| self.is_steady(word)) {
+        // Until something is assigned to it, a word means the same that is no signal, no function.
+        let is_steady = |word: &str| {
+            let lower = lower(word);
+            word.starts_with(|c: char| c.is_ascii_digit())
+                || STEADY_WORDS.contains(&&*lower)
+                || self.state.locals.contains_key(&*lower)
+                || self.program.datum(self.frame.module, &lower).is_some()
+        };
+        if words_of(text).all(is_steady) {
             let words = words_of(text).map(str::to_lowercase).collect();
             self.asked.borrow_mut().add(key, words, number);
         }
         number
-    }
-
-    /// Whether a word of an expression means the same until something is assigned to it: no signal,
-    /// no function.
-    fn is_steady(&self, word: &str) -> bool {
-        let lower = lower(word);
-        word.starts_with(|c: char| c.is_ascii_digit())
-            || STEADY_WORDS.contains(&&*lower)
-            || self.state.locals.contains_key(&*lower)
-            || self.program.datum(self.frame.module, &lower).is_some()
     }
 
     /// Why the declared content of a datum, or a part of it, may not be what it has here; an error
@@ -301,7 +298,7 @@ impl<'s> Scope<'s, '_> {
                 let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
                 Some(numbers.iter().any(|number| number.total_cmp(&own).is_eq()))
             }
-            Condition::Other => None,
+            Condition::Other(_) => None,
         }
     }
 

@@ -11,10 +11,9 @@ use alloc::vec::Vec;
 
 use super::cases::{Case, Known, Way};
 use super::effects::{releases, written_by};
-use super::frame::Frame;
 use super::moves::place_behind;
-use super::state::{Displacement, Here, State};
-use super::tree::{Block, Node, Part};
+use super::state::{Displacement, Frame, Here, Local, State};
+use super::tree::{Block, Node, Part, size};
 use super::values::Calls as _;
 use super::walker::{END_OF_MAIN, Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
@@ -23,9 +22,11 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::records::GivenTools;
-use crate::rapid::data::statement::{Assignment, Condition, Instruction, Statement, StatementKind};
-use crate::rapid::data::unread::Reason;
-use crate::rapid::data::value::DataType;
+use crate::rapid::data::statement::{
+    Assignment, Condition, Counter, Instruction, Statement, StatementKind,
+};
+use crate::rapid::data::unread::{Reason, Unresolved};
+use crate::rapid::data::value::{DataType, Value};
 use irbkin::{Interrupt, Interrupted};
 
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
@@ -111,8 +112,14 @@ impl<'m> Walk<'_, 'm> {
             if self.ends() {
                 return;
             }
-            if self.state.here == Here::Left && !is_dead {
-                is_dead = self.note_dead(node);
+            if self.state.here == Here::Left
+                && !is_dead
+                && let Node::Move(_, step) = node
+            {
+                is_dead = true;
+                let words = "is never executed: the routine is left before";
+                let finding = Finding::new(Code::NeverRun, words).at(step, 0);
+                self.notes.push(finding.in_module(self.frame.module));
             }
             match node {
                 Node::Move(index, step) => self.step(*index, step),
@@ -227,14 +234,6 @@ impl<'m> Walk<'_, 'm> {
             let finding = Finding::new(Code::NeverRun, "what follows is never executed");
             self.notes.push(finding.in_module(self.frame.module).at_statement(head, 0));
         }
-    }
-
-    /// Report a move behind a statement that leaves the routine; true if it is one.
-    fn note_dead(&mut self, node: &Node<'m>) -> bool {
-        let Node::Move(_, step) = node else { return false };
-        let finding = Finding::new(Code::NeverRun, "is never executed: the routine is left before");
-        self.notes.push(finding.at(step, 0).in_module(self.frame.module));
-        true
     }
 
     /// A move, with the values that it has here.
@@ -401,4 +400,136 @@ impl<'m> Walk<'_, 'm> {
             Effect::Nothing => self.call(statement, instruction),
         }
     }
+}
+
+/// Most passes of a loop that are followed.
+const MOST_PASSES: usize = 1000;
+
+/// Most statements in the passes of a loop that no move and no call names the counter of.
+const MOST_UNCOUNTED: usize = 200;
+
+impl<'m> Walk<'_, 'm> {
+    /// A loop: each pass where its bounds are known and it refers to its variable, else the first.
+    pub(super) fn repeat(
+        &mut self,
+        head: &'m Statement,
+        (counter, is_counted): (&Counter, bool),
+        body: &Block<'m>,
+    ) {
+        let name = &counter.variable;
+        let before = self.state.locals.get(name).cloned();
+        let bounds = counter.bounds.each_ref().map(|bound| self.number(&head.text, bound));
+        let step = counter.step.as_ref().map(|step| self.number(&head.text, step));
+        let passes = values_of(bounds, step.flatten());
+        let is_short = passes.len() * size(body) <= MOST_UNCOUNTED;
+        let is_followed = self.is_one || is_counted || is_short;
+        if !passes.is_empty() && self.affords(passes.len(), body) && is_followed {
+            let depth = self.passes.len();
+            for value in passes {
+                self.passes.truncate(depth);
+                self.passes.push(format!("{name} = {value}"));
+                self.state.asked.forget_word(name);
+                let local = Local::single(Value::Num(value));
+                Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
+                self.block(body);
+                if self.state.here == Here::Left {
+                    break;
+                }
+                if self.is_spent() {
+                    let words = "the program has too many passes of loops to follow each";
+                    self.not_followed(head, words.to_string());
+                    self.forget(body);
+                    break;
+                }
+            }
+            self.passes.truncate(depth);
+        } else {
+            let local = Local { data_type: None, content: Err(Unresolved::LoopVariable) };
+            Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
+            self.repeat_first(head, body);
+        }
+        let locals = Rc::make_mut(&mut self.state.locals);
+        match before {
+            Some(local) => locals.insert(name.clone(), local),
+            None => locals.remove(name),
+        };
+    }
+
+    /// A loop with a condition: each pass as long as it is known to hold, then the first of those
+    /// in which it may.
+    pub(super) fn repeat_while(
+        &mut self,
+        head: &'m Statement,
+        condition: &Condition,
+        body: &Block<'m>,
+    ) {
+        if let Condition::Compared(..) = condition {
+            let depth = self.passes.len();
+            for pass in 1..=MOST_PASSES {
+                match self.holds(head, condition) {
+                    Some(true) if self.affords(1, body) => {}
+                    Some(false) => return,
+                    _ => break,
+                }
+                let before = self.state.clone();
+                self.passes.push(format!("pass {pass}"));
+                self.block(body);
+                self.passes.truncate(depth);
+                if self.state.here == Here::Left {
+                    return;
+                }
+                if self.state.knows_as(&before) {
+                    break;
+                }
+            }
+        }
+        self.repeat_first(head, body);
+        if matches!(condition, Condition::Always) && !jumps(body) {
+            self.state.here = Here::Left;
+        }
+    }
+
+    /// Whether so many passes of a loop can be followed.
+    fn affords(&self, passes: usize, body: &Block<'m>) -> bool {
+        let left = self.steps_left.min(self.moves_left);
+        !self.is_spent() && passes.saturating_mul(size(body)) <= left
+    }
+
+    /// The first pass of a loop whose passes are not known.
+    fn repeat_first(&mut self, head: &'m Statement, body: &Block<'m>) {
+        if self.is_one && self.acts(body) {
+            self.decides(head.line, head.kind.word());
+        }
+        self.forget(body);
+        let entry = self.state.clone();
+        self.block(body);
+        let ends = Vec::from([(0, entry.clone()), (1, self.state.clone())]);
+        self.join(entry, ends, (self.question(), head.line));
+    }
+}
+
+/// Whether a block has a jump, which may leave it.
+fn jumps(block: &Block<'_>) -> bool {
+    block.iter().any(|node| match node {
+        Node::Branches { parts, .. } => parts.iter().any(|part| jumps(&part.block)),
+        Node::Loop { body, .. } => jumps(body),
+        Node::Other(statement) => match &statement.kind {
+            StatementKind::Instruction(it) => it.effect == Effect::Jumps,
+            _ => false,
+        },
+        _ => false,
+    })
+}
+
+/// The values of a loop between bounds: from, to and step.
+fn values_of(bounds: [Option<f64>; 2], step: Option<f64>) -> Vec<f64> {
+    let [Some(from), Some(to)] = bounds else { return Vec::new() };
+    let step = step.unwrap_or(if to < from { -1.0 } else { 1.0 });
+    let mut values = Vec::new();
+    let mut value = from;
+    while values.len() <= MOST_PASSES && (to - value) * step >= 0.0 && step != 0.0 {
+        values.push(value);
+        value += step;
+    }
+    if values.len() > MOST_PASSES { Vec::new() } else { values }
 }

@@ -11,8 +11,7 @@ use core::ops::Deref;
 use nalgebra::Vector3;
 
 use super::cases::{Case, Choices, MOST_CASES, Way};
-use super::frame::{Frame, Site};
-use super::state::{Here, State};
+use super::state::{Frame, Here, Site, State};
 use super::tree::{Block, Node, size};
 use super::values::Scope;
 use super::whole::Program;

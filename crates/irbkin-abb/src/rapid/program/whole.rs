@@ -5,7 +5,7 @@ use core::ops::Deref;
 use super::effects::Effects;
 use super::index::{DatumId, Index};
 use crate::Error;
-use crate::rapid::data::module::Module;
+use crate::rapid::data::module::{Datum, Module};
 use crate::rapid::data::moves::Target;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::names::ToolIn;
@@ -26,6 +26,12 @@ impl<'m> Program<'m> {
         let index = Index::new(modules);
         let effects = Effects::of(&index);
         Self { index, effects, convert }
+    }
+
+    /// The datum that a name in lower case refers to in a module, if no statement assigns it.
+    pub(in crate::rapid) fn unassigned(&self, module: usize, lower: &str) -> Option<&'m Datum> {
+        let (id, datum) = self.datum(module, lower)?;
+        (!self.effects.assigned.contains_key(&id)).then_some(datum)
     }
 
     /// Whether the program assigns a target with its confdata.

@@ -64,7 +64,14 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
     for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
         let is_assigned = causes.of_datum(i).is_some();
         places.push(match parts.get(&i) {
-            Some(name) => add_part(&mut module, name, datum, content),
+            Some(name) => {
+                // A component of a datum of a record is no datum by itself.
+                if let (Ok(placed), 0) = (content, datum.routine) {
+                    let part = datum_of(name.clone(), datum, None, placed);
+                    module.parts.insert(name.clone(), part);
+                }
+                None
+            }
             None => add(&mut module, text, datum, content, is_assigned),
         });
     }
@@ -76,20 +83,6 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         .collect();
     module.text_length = text.len();
     Ok(module)
-}
-
-/// Add a component of a datum of a record, if it is known and not of a routine: no datum by itself.
-fn add_part(
-    module: &mut Module,
-    name: &str,
-    declared: &Declared<'_>,
-    content: Result<Placed, Reason>,
-) -> Option<usize> {
-    if let (Ok(placed), 0) = (content, declared.routine) {
-        let datum = datum_of(name.to_string(), declared, None, placed);
-        module.parts.insert(name.to_string(), datum);
-    }
-    None
 }
 
 /// Add a declaration, which may refer to assigned data; its place among the data, if its value is

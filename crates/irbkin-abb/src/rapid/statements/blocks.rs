@@ -102,7 +102,7 @@ impl<'a> Blocks<'a> {
                 self.begin(tokens, 1, Some(self.loops.len() - 1), token)?;
                 let (variable, bounds) = (variable.to_lowercase(), [from, to]);
                 let counter = Some(Box::new(Counter { variable, bounds, step }));
-                Flow::Loop { condition: Condition::Other, counter }
+                Flow::Loop { condition: Condition::Other(None), counter }
             }
             "WHILE" => {
                 let condition = Condition::of(operand(tokens, begin)?);
@@ -168,7 +168,7 @@ impl<'a> Blocks<'a> {
         let block = BLOCKS.iter().position(|(begin, _)| begin.eq_ignore_ascii_case(word));
         let block = block.filter(|_| self.open.len() < DEEPEST_NESTING)?;
         self.open.push((block, None));
-        let condition = Condition::Other;
+        let condition = Condition::Other(None);
         Some(match BLOCKS[block].0 {
             "IF" => Flow::If { condition, is_single: false },
             "TEST" => Flow::Test(None),

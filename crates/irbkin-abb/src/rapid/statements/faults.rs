@@ -56,10 +56,13 @@ pub(super) fn end_statement(
     }
 }
 
-/// Whether a text is what an encoded module looks like: control characters among its first ones.
+/// Whether a text is what an encoded module looks like: it does not begin in ASCII, and has control
+/// characters among its first ones.
 pub(crate) fn is_encoded(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}').trim_start();
+    let begin = || text.trim_end_matches(['\0', '\u{1a}']).chars().take(16);
     let is_control = |it: char| it.is_control() && !it.is_ascii_whitespace();
-    !text.starts_with('!')
-        && text.trim_end_matches(['\0', '\u{1a}']).chars().take(4).any(is_control)
+    let is_text =
+        text.starts_with('!') || begin().take(4).all(|it| it.is_ascii() && !is_control(it));
+    !is_text && begin().any(is_control)
 }

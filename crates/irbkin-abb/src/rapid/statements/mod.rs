@@ -2,12 +2,10 @@
 
 pub(crate) mod blocks;
 pub(crate) mod declarations;
-pub(crate) mod declared;
 pub(crate) mod faults;
 mod instructions;
 pub(crate) mod moves;
 mod own_types;
-pub(crate) mod parts;
 pub(crate) mod reader;
 pub(crate) mod recovery;
 mod statement;

@@ -6,9 +6,9 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::blocks::is_flow;
+use super::declarations::DatumPart;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
 use super::faults::{Faults, is_encoded};
-use super::parts::DatumPart;
 use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
 use super::recovery::skip_to_end;
 use crate::rapid::data::module::{Module, Parameter, Routine, RoutineKind, Scope};

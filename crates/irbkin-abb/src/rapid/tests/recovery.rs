@@ -166,14 +166,20 @@ fn text_around_a_module_is_read_too() {
 
 #[test]
 fn an_encoded_module_is_named_as_such() {
-    let bytes = [0xfc, 0x80, 0xe0, 0x26, 0x00, 0x01, b'a', 0x0a];
-    let text = crate::rapid::decode(&bytes);
     let words = "line 1, column 1: an encoded module, which is not text, is not read";
-    assert_eq!(fault(&text), words);
-    let module = read_on(&text, &[]);
-    assert_eq!((faults(&module), module.skipped().len()), (Vec::from([words.to_string()]), 0));
-    for text in ["! \u{93}quoted\u{94}\nVAR num a;", "\u{feff}  VAR num a;\u{1a}", "\r\n\t", "\0\0"]
-    {
+    for bytes in [b"\xfc\x80\xe0\x26\x00\x01a\n".as_slice(), b"\xfc\xa8\xc74\x08\x01H\x03\x1bJ"] {
+        let text = crate::rapid::decode(bytes);
+        assert_eq!(fault(&text), words);
+        let module = read_on(&text, &[]);
+        assert_eq!((faults(&module), module.skipped().len()), (Vec::from([words.to_string()]), 0));
+    }
+    for text in [
+        "! \u{93}quoted\u{94}\nVAR num a;",
+        "VAR num a;!\u{84}",
+        "\u{feff}  VAR num a;\u{1a}",
+        "\r\n\t",
+        "\0\0",
+    ] {
         assert!(read_on(text, &[]).faults().is_empty(), "{text:?}");
     }
 }

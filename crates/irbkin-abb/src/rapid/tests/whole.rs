@@ -260,7 +260,7 @@ fn what_is_taken_away_is_named_on_its_line_or_the_next() {
 
 fn findings(statements: &str) -> Vec<(Code, usize, String)> {
     let text = format!(
-        "MODULE M\nPROC main()\n{statements}\nENDPROC\nPROC rOpen(num a\\switch b|num c)\nENDPROC\nENDMODULE"
+        "MODULE M\nPROC main()\n{statements}\nENDPROC\nPROC rOpen(num a\\switch b|num c)\nENDPROC\nVAR num x; VAR string f; ENDMODULE"
     );
     let found = wrong(&text).1.into_iter();
     found.map(|it| (it.code, it.line, it.message)).collect()
@@ -343,6 +343,8 @@ fn other_arguments_than_a_routine_has_are_an_error() {
 fn calls_that_controllers_load_have_no_finding() {
     let routines =
         "PROC rMsg(string s\\string arr{*}\\num two{*,*}) ENDPROC PROC rLog(string s) ENDPROC";
+    let data = "VAR num x; VAR iodev io1; VAR bool bReady; VAR string t; VAR socketdev s1;
+        VAR string addr; VAR num port; VAR egmident egm1; VAR num y; VAR num z{2,2};";
     for statements in [
         "rMsg \"a\"\\arr:=x; rMsg \"a\"\\arr?y\\two:=z;",
         "rLog\"done;\"; rLog\"\";",
@@ -351,7 +353,8 @@ fn calls_that_controllers_load_have_no_finding() {
         "SocketReceiveFrom s1\\Str:=t,addr,port; EGMWaitCond egm1;",
         "%\"rLog\"% \"a\";%\"rLog\"% \"b\";",
     ] {
-        let text = format!("MODULE M\nPROC main()\n{statements}\nENDPROC {routines}\nENDMODULE");
+        let text =
+            format!("MODULE M {data}\nPROC main()\n{statements}\nENDPROC {routines}\nENDMODULE");
         assert_eq!(wrong(&text), (Vec::new(), Vec::new()), "{text}");
     }
     // 65 optional arguments and more are told apart as far as a bit for each goes.

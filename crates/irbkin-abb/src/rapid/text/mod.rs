@@ -2,7 +2,6 @@
 
 #[doc(hidden)]
 pub mod fault;
-pub(crate) mod literals;
 pub(crate) mod place;
 pub(crate) mod skipping;
 pub(crate) mod tokens;
