@@ -26,7 +26,6 @@ fn check<T>(argument: &'static str, pointer: *const T, len: usize) -> Result<(),
     Ok(())
 }
 
-/// Check a length.
 pub(crate) fn check_length(
     argument: &'static str,
     found: usize,

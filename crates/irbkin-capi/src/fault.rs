@@ -6,7 +6,6 @@ use core::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use irbkin::Error as RobotError;
-use irbkin::follow::Break;
 use irbkin_motion::Error;
 
 /// The outcome of a call. irbkin_last_error() has the sentence.
@@ -39,7 +38,6 @@ pub enum IrbkinCode {
     Panic = 11,
 }
 
-/// Why a call fails.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Fault {
     #[error("{argument} is NULL")]
@@ -69,9 +67,7 @@ pub(crate) enum Fault {
     #[error(transparent)]
     Other(Box<Error>),
     #[error("{0}")]
-    Broken(Break),
-    #[error("{0}")]
-    NoPlan(String),
+    Broken(String),
 }
 
 impl<E: Into<Error>> From<E> for Fault {
@@ -94,7 +90,7 @@ impl Fault {
     fn code(&self) -> IrbkinCode {
         match self {
             Self::Angle { .. } => IrbkinCode::InvalidJoints,
-            Self::Broken(_) | Self::NoPlan(_) => IrbkinCode::BrokenPath,
+            Self::Broken(_) => IrbkinCode::BrokenPath,
             Self::Of { error, .. } | Self::Item { error, .. } | Self::Other(error) => {
                 code_of(error)
             }

@@ -32,7 +32,6 @@ struct Marked<T> {
     value: T,
 }
 
-/// A type of handles.
 pub(crate) trait Handle {
     /// The mark of a living handle: of this type only, and nothing that memory often holds.
     const LIVING: u64;

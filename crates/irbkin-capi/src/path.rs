@@ -91,7 +91,7 @@ pub unsafe extern "C" fn irbkin_follow(
             }
             first = first.or(reason.map(|reason| Break { pose_index, reason }));
         }
-        first.map_or(Ok(()), |first| Err(Fault::Broken(first)))
+        first.map_or(Ok(()), |first| Err(Fault::Broken(first.to_string())))
     }
     guarded(|| {
         // SAFETY: the pointers are as the header says.
@@ -200,9 +200,9 @@ impl<const N: usize> Out<'_, N> {
             Err(PlanError::Invalid(error)) => Err(error.into()),
             Err(PlanError::NoPlan(gap)) => {
                 self.write(&gap.plan);
-                Err(Fault::NoPlan(gap.to_string()))
+                Err(Fault::Broken(gap.to_string()))
             }
-            Err(other) => Err(Fault::NoPlan(other.to_string())),
+            Err(other) => Err(Fault::Broken(other.to_string())),
         }
     }
 

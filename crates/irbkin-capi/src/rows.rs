@@ -14,11 +14,6 @@ fn batch(threads: usize) -> Batch<'static> {
     Batch::new(NonZeroUsize::new(threads))
 }
 
-/// A number of elements; the largest number there is where there are more.
-fn elements(rows: usize, each: usize) -> usize {
-    rows.saturating_mul(each)
-}
-
 /// Write the poses of many joint vectors: `count` rows of dof angles [rad] to `count` rows of 16
 /// numbers, NaN for a row that is not finite.
 ///
@@ -62,7 +57,7 @@ pub unsafe extern "C" fn irbkin_ik_batch(
     threads: usize,
 ) -> IrbkinCode {
     guarded(|| {
-        let poses_len = elements(count, 16);
+        let poses_len = count.saturating_mul(16);
         // SAFETY: the pointers are as the header says.
         let (robot, poses) =
             unsafe { (handle("robot", robot)?, slice("poses", poses, poses_len)?) };
@@ -96,7 +91,7 @@ pub unsafe extern "C" fn irbkin_collides(
         let robot = unsafe { handle("robot", robot) }?;
         // SAFETY: as above.
         let cell = given(cell, || unsafe { handle("cell", cell) })?;
-        let q_len = elements(count, robot.robot().dof());
+        let q_len = count.saturating_mul(robot.robot().dof());
         // SAFETY: as above. Zero is a byte of `bool`, whatever was there.
         let (q, collides) = unsafe {
             slice_mut("collides", collides.cast::<u8>(), count)?.fill(0);

@@ -2,9 +2,7 @@
 
 use core::ffi::c_char;
 
-use irbkin::{
-    Configuration, ConfigurationRequest, JacobianFrame, Pose, Robot, Status, on, pose as poses,
-};
+use irbkin::{Configuration, ConfigurationRequest, JacobianFrame, Pose, Robot, on, pose as poses};
 
 use crate::arguments::{
     array, array_mut, check_length, given, joints, reference, slice, slice_mut, unchecked_pose,
@@ -137,14 +135,13 @@ fn all<const N: usize>(
         Ok(solutions) => solutions,
         Err(error) => return Err(error.clone().into()),
     };
-    let (mut count, flags) = (0, solutions.status());
+    let flags = solutions.status();
     let slots = q.as_chunks_mut::<N>().0.iter_mut().zip(status).zip(&*flags);
     for (slot, ((q, status), flags)) in slots.enumerate() {
         *status = flags.bits();
-        count += usize::from(flags.contains(Status::FOUND));
         *q = solutions.slot(slot).map_or([f64::NAN; N], |solution| solution.q);
     }
-    Ok(count)
+    Ok(solutions.len())
 }
 
 /// Write the outcome of irbkin_ik() in a sentence: how many solutions a pose has, or why it has

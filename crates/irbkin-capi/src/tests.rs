@@ -71,7 +71,7 @@ fn each_thread_has_its_own_last_error() {
 fn a_long_message_is_cut_off_between_characters() {
     for start in ["", "x"] {
         let words = start.to_owned() + &"\u{e9}".repeat(2000);
-        assert_eq!(report(&Fault::NoPlan(words.clone())), IrbkinCode::BrokenPath);
+        assert_eq!(report(&Fault::Broken(words.clone())), IrbkinCode::BrokenPath);
         assert_eq!(message().len(), 2046 + start.len());
         assert!(words.starts_with(&message()));
     }

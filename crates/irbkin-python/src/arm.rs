@@ -17,6 +17,17 @@ use irbkin_motion::{Arm, Error};
 /// A robot of six or seven joints.
 pub(super) type SharedArm = ByJoints<Arc<Arm<6>>, Arc<Arm<7>>>;
 
+/// Evaluate one expression, which has as many joints, on either value of a [`ByJoints`].
+macro_rules! each {
+    ($either:expr, $inner:ident => $body:expr) => {
+        match $either {
+            $crate::arm::ByJoints::Six($inner) => $crate::arm::ByJoints::Six($body),
+            $crate::arm::ByJoints::Seven($inner) => $crate::arm::ByJoints::Seven($body),
+        }
+    };
+}
+pub(super) use each;
+
 /// The arm of the catalog with a name: each is made once, for a robot is frozen.
 pub(super) fn named(name: &str) -> Result<SharedArm, Error> {
     static MADE: Mutex<BTreeMap<&str, SharedArm>> = Mutex::new(BTreeMap::new());

@@ -25,9 +25,6 @@ use irbkin_motion::cell::{Cell, Checker, Contact, Nearest};
 use irbkin_motion::internal::{Memory, Motion, check_most_near};
 use irbkin_motion::{Arm, Error};
 
-/// Most obstacles with which a single joint vector is looked at with the interpreter's lock.
-const FEW: usize = 100;
-
 /// Obstacles around an arm: whether it touches them or itself.
 ///
 /// Args:
@@ -174,7 +171,7 @@ impl PyCell {
         #[pyo3(from_py_with = read_threads)] threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (q.py(), thread_count(threads)?);
-        if out.is_none() && self.cell.obstacles().len() <= FEW {
+        if out.is_none() {
             let one = on!(robot.arm(), arm => self.at_plain(arm, q)?);
             if let Some(collides) = one {
                 return Ok(PyArray::from_array(py, &aview0(&collides)).into_any());

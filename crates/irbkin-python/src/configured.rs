@@ -156,20 +156,16 @@ impl PyRobot {
     }
 }
 
-/// Whether a configuration, with the arm angle of a YuMi, names one solution of a pose.
-fn names_one(arm: &SharedArm) -> bool {
-    let rule = on!(arm, robot => robot.configuration_rule());
-    rule.is_ok_and(|rule| rule == ConfigurationRule::SphericalWrist)
-}
-
 /// Whether the solution nearest to the seed replaces one that does not exist.
 pub(super) fn or_nearest(
     arm: &SharedArm,
     fallback: Option<&str>,
     seed: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<bool> {
+    // A configuration, with the arm angle of a YuMi, may name several solutions of a pose.
+    let rule = on!(arm, robot => robot.configuration_rule());
     match (fallback, seed) {
-        (None, Some(_)) if names_one(arm) => {
+        (None, Some(_)) if rule == Ok(ConfigurationRule::SphericalWrist) => {
             Err(PyTypeError::new_err("a seed is for fallback=\"nearest\""))
         }
         (None, _) => Ok(false),

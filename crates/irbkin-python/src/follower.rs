@@ -7,7 +7,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{ByJoints, SharedArm, on};
+use super::arm::{ByJoints, each, on};
 use super::records::{self, break_reason};
 use super::robot::PyRobot;
 use super::targets::{read_seed, read_single_pose, read_weights};
@@ -79,10 +79,7 @@ impl PyFollower {
         seed: &Bound<'_, PyAny>,
         weights: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        Ok(Self(match robot.get().arm() {
-            SharedArm::Six(robot) => ByJoints::Six(Steps::new(robot, seed, weights)?),
-            SharedArm::Seven(robot) => ByJoints::Seven(Steps::new(robot, seed, weights)?),
-        }))
+        Ok(Self(each!(robot.get().arm(), robot => Steps::new(robot, seed, weights)?)))
     }
 
     /// Return the joints at the next pose of the path.

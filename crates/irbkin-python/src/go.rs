@@ -86,7 +86,7 @@ impl PyRobot {
             })?
         });
         let motion = motion.map_err(|error| refused(error, seconds))?;
-        Ok(PyTrajectory::even(py, motion, steps)?.with_names(self.file_joint_names()))
+        Ok(PyTrajectory::even(motion, steps)?.with_names(self.file_joint_names()))
     }
 }
 

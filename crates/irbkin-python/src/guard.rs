@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyTuple};
 
 use super::arguments::{VIOLATIONS, one_of};
-use super::arm::{ByJoints, SharedArm, on};
+use super::arm::{ByJoints, each, on};
 use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::{Fault, exception};
@@ -17,12 +17,11 @@ use super::record::{self, record, record_methods};
 use super::records::Array;
 use super::robot::PyRobot;
 use super::targets::shape_of;
-use super::trajectories::{read_each, read_limits};
+use super::trajectories::read_limits;
 use irbkin::pose::from_rows as pose_from_rows;
 use irbkin::{Error, Pose};
-use irbkin_motion::Arm;
 use irbkin_motion::cell::Cell;
-use irbkin_motion::stream::{Guard, GuardOptions, OnViolation};
+use irbkin_motion::stream::{Guard, GuardOptions};
 
 record! {
     "irbkin.stream";
@@ -103,16 +102,22 @@ impl PyGuard {
         hold: f64,
     ) -> PyResult<Self> {
         let on_violation = one_of("on_violation", on_violation, &VIOLATIONS)?;
-        let limits = [max_velocity, Some(max_acceleration), max_jerk];
-        let asked =
-            GuardArguments { cycle, start, limits, margin, max_tool_speed, on_violation, hold };
         let cell = read_cell(cell)?;
-        let guard = match robot.get().arm() {
-            SharedArm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
-            SharedArm::Seven(robot) => {
-                ByJoints::Seven(Mutex::new(asked.guard(robot, cell.as_ref())?))
-            }
-        };
+        let guard = each!(robot.get().arm(), arm => {
+            let max_acceleration = read_limits(Some(max_acceleration), "max_acceleration")?;
+            let options = GuardOptions {
+                cycle,
+                max_acceleration: max_acceleration.unwrap_or([f64::INFINITY; _]),
+                max_velocity: read_limits(max_velocity, "max_velocity")?,
+                max_jerk: read_limits(max_jerk, "max_jerk")?,
+                margin,
+                max_tool_speed,
+                on_violation,
+                hold,
+            };
+            let start = vector(start, "start", Fault::Joints)?;
+            Mutex::new(Guard::new(arm, &start, cell.as_ref(), &options).map_err(exception)?)
+        });
         Ok(Self { guard, robot: robot.clone().unbind() })
     }
 
@@ -174,39 +179,6 @@ impl PyGuard {
             let comma = if name.is_empty() { "" } else { ", " };
             format!("<Guard: {name}{comma}cycle {cycle} s, {}{proven}>", guard.state().name())
         })
-    }
-}
-
-/// The arguments of a guard.
-struct GuardArguments<'a, 'py> {
-    cycle: f64,
-    start: &'a Bound<'py, PyAny>,
-    /// Of velocity, acceleration and jerk.
-    limits: [Option<&'a Bound<'py, PyAny>>; 3],
-    margin: f64,
-    max_tool_speed: Option<f64>,
-    on_violation: OnViolation,
-    hold: f64,
-}
-
-impl GuardArguments<'_, '_> {
-    fn guard<const N: usize>(&self, robot: &Arm<N>, cell: Option<&Cell>) -> PyResult<Guard<N>> {
-        let [velocity, acceleration, jerk] = self.limits;
-        let mut max_acceleration = [f64::INFINITY; N];
-        let given = read_each(acceleration, "max_acceleration", N, f64::INFINITY)?;
-        max_acceleration.copy_from_slice(&given);
-        let options = GuardOptions {
-            cycle: self.cycle,
-            max_velocity: read_limits(velocity, "max_velocity")?,
-            max_acceleration,
-            max_jerk: read_limits(jerk, "max_jerk")?,
-            margin: self.margin,
-            max_tool_speed: self.max_tool_speed,
-            on_violation: self.on_violation,
-            hold: self.hold,
-        };
-        Guard::new(robot, &vector(self.start, "start", Fault::Joints)?, cell, &options)
-            .map_err(exception)
     }
 }
 

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arguments::{read_threads, thread_count};
-use super::arm::{SharedArm, on};
+use super::arm::{ByJoints, SharedArm, on};
 use super::cell::PyCell;
 use super::errors::{exception, of_seed};
 use super::found::Found;
@@ -56,7 +56,7 @@ impl PyRobot {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.ik_into(&mut found.solutions, f64::NAN).map_err(exception)?;
-                Bound::new(py, PySolutions::from(found))
+                Bound::new(py, PySolutions { found: ByJoints::Six(found) })
             }
             SharedArm::Seven(robot) => {
                 let angle = match (robot.locked_joint(), q7) {
@@ -68,7 +68,7 @@ impl PyRobot {
                 robot.check_locked(angle).map_err(exception)?;
                 robot.ik_into(&mut found.solutions, angle).map_err(exception)?;
                 let q7 = q7.is_some().then_some(angle);
-                Bound::new(py, PySolutions::from(Found { q7, ..found }))
+                Bound::new(py, PySolutions { found: ByJoints::Seven(Found { q7, ..found }) })
             }
         }
     }

@@ -124,7 +124,7 @@ fn restore<'py>(py: Python<'py>, kind: &str, state: &[u8]) -> PyResult<Bound<'py
             .into_bound_py_any(py),
         "Trajectory" => {
             let (motion, times, names) = read(kind, state, |_| true)?;
-            PyTrajectory::new(py, motion, times)?.with_names(names).into_bound_py_any(py)
+            PyTrajectory::new(motion, times).with_names(names).into_bound_py_any(py)
         }
         _ => Err(Fault::Model.error(format_args!("the pickled {kind} is damaged: unknown class"))),
     }

@@ -140,8 +140,8 @@ impl PyRobot {
     ///         or seven joints, if the last of these can be no gripper's.
     ///     name: A name of your own; the URDF's when not given.
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
-    ///         exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
-    ///         are.
+    ///         exact [rad], at most 1e-3; 0 keeps all. By default right angles rounded to four or
+    ///         more decimals are, unless that may move the tool by more than 1e-4 m; see `repr`.
     ///
     /// Raises:
     ///     InvalidModelError: The text is not a URDF, several links could be meant, there are not
@@ -150,13 +150,13 @@ impl PyRobot {
     ///         the message names what is wrong, and the base and tip that could be passed.
     ///     OSError: The file cannot be read.
     #[staticmethod]
-    #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=0.0))]
+    #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=None))]
     fn from_urdf(
         text_or_path: &Bound<'_, PyAny>,
         base: Option<&str>,
         tip: Option<&str>,
         name: &str,
-        snap: f64,
+        snap: Option<f64>,
     ) -> PyResult<Self> {
         let bytes = bytes_of(text_or_path)?;
         let read = || UrdfArm::read(text_of(&bytes)?, base, tip, &[6, 7])?.any_arm(snap);

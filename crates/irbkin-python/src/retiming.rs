@@ -67,7 +67,7 @@ impl Path {
             detached_until(py, |interrupt| inside(time(self, interrupt)?, limits.as_deref()))?;
         let motion = motion.map_err(exception)?;
         check_turns("q", &self.q, self.max_velocity.len(), limits.as_deref())?;
-        PyTrajectory::even(py, motion, steps)
+        PyTrajectory::even(motion, steps)
     }
 }
 

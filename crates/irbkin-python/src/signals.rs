@@ -76,7 +76,11 @@ impl Signals {
             // Whatever runs Python's code may raise what a handler raises.
             let heard = Python::attach(|py| {
                 self.report(py, rounds)?;
-                py.check_signals().and_then(|()| is_main_thread(py))
+                py.check_signals()?;
+                // The main thread handles signals.
+                let threading = py.import(intern!(py, "threading"))?;
+                let main = threading.call_method0(intern!(py, "main_thread"))?;
+                Ok(threading.call_method0(intern!(py, "current_thread"))?.is(&main))
             });
             match heard {
                 Ok(is_main) => self.is_deaf = !is_main,
@@ -91,11 +95,4 @@ impl Signals {
     fn report(&self, py: Python<'_>, [done, all]: [usize; 2]) -> PyResult<()> {
         self.report.as_ref().map_or(Ok(()), |report| report.call1(py, (done, all)).map(drop))
     }
-}
-
-/// Whether this is the thread that handles signals.
-fn is_main_thread(py: Python<'_>) -> PyResult<bool> {
-    let threading = py.import(intern!(py, "threading"))?;
-    let main = threading.call_method0(intern!(py, "main_thread"))?;
-    Ok(threading.call_method0(intern!(py, "current_thread"))?.is(&main))
 }

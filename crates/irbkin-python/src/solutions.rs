@@ -9,7 +9,7 @@ use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
-use super::arm::{ByJoints, SharedArm, on};
+use super::arm::{ByJoints, each, on};
 use super::cell::PyCell;
 use super::found::Found;
 use super::outputs::matrix;
@@ -34,18 +34,6 @@ use irbkin::pose::to_rows as pose_to_rows;
 #[pyclass(name = "Solutions", module = "irbkin", frozen, weakref, sequence, freelist = 8)]
 pub(super) struct PySolutions {
     pub(super) found: ByJoints<Found<6>, Found<7>>,
-}
-
-impl From<Found<6>> for PySolutions {
-    fn from(found: Found<6>) -> Self {
-        Self { found: ByJoints::Six(found) }
-    }
-}
-
-impl From<Found<7>> for PySolutions {
-    fn from(found: Found<7>) -> Self {
-        Self { found: ByJoints::Seven(found) }
-    }
 }
 
 #[pymethods]
@@ -113,7 +101,7 @@ impl PySolutions {
 
     /// Return the solutions inside the joint limits.
     fn within_limits(&self) -> Self {
-        on!(&self.found, found => found.within_limits().into())
+        Self { found: each!(&self.found, found => found.within_limits()) }
     }
 
     /// Return every 2 pi equivalent of every solution that is inside the limits. A joint without
@@ -122,7 +110,8 @@ impl PySolutions {
     /// Raises:
     ///     ValueError: There are more than a million.
     fn turns(&self) -> PyResult<Self> {
-        on!(&self.found, found => found.turns().map(Self::from).map_err(PyValueError::new_err))
+        let turns = each!(&self.found, found => found.turns().map_err(PyValueError::new_err)?);
+        Ok(Self { found: turns })
     }
 
     /// Return the solution inside the limits that is nearest to `seed`, 2 pi equivalents
@@ -162,13 +151,12 @@ impl PySolutions {
     ///     accept: Called with each `Solution`, which is also the sequence of its joint angles
     ///         [rad]; an exception of it is passed on. Or a `Cell`.
     fn filter(&self, accept: &Bound<'_, PyAny>) -> PyResult<Self> {
-        on!(&self.found, found => {
-            if let Ok(cell) = accept.cast::<PyCell>() {
-                return found.filter_free(&cell.get().cell).map(Self::from);
-            }
-            let accepts = |one| accept.call1((PySolution::from(one),))?.is_truthy();
-            found.filter(accepts).map(Self::from)
-        })
+        let accepts = |one: PySolution| accept.call1((one,))?.is_truthy();
+        let kept = each!(&self.found, found => match accept.cast::<PyCell>() {
+            Ok(cell) => found.filter_free(&cell.get().cell)?,
+            Err(_) => found.filter(|one| accepts(one.into()))?,
+        });
+        Ok(Self { found: kept })
     }
 
     #[pyo3(signature = (dtype=None, copy=None))]
@@ -236,10 +224,7 @@ impl PySolutions {
 impl PySolutions {
     /// The robot that they are of.
     pub(super) fn robot(&self) -> PyRobot {
-        match &self.found {
-            ByJoints::Six(found) => SharedArm::Six(Arc::clone(&found.robot)).into(),
-            ByJoints::Seven(found) => SharedArm::Seven(Arc::clone(&found.robot)).into(),
-        }
+        each!(&self.found, found => Arc::clone(&found.robot)).into()
     }
 
     fn outcome(&self) -> String {

@@ -178,7 +178,6 @@ pub(super) fn joint(
     synchronization: &str,
     limits: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
-    let py = q0.py();
     let profile = one_of("profile", profile, &PROFILES)?;
     let synchronization = one_of("synchronization", synchronization, &SYNCHRONIZATIONS)?;
     let read = |q, field| numbers(q, "(n,)", field, Fault::Joints);
@@ -223,7 +222,7 @@ pub(super) fn joint(
     let motion = inside(motion.map_err(exception)?, angles.as_deref()).map_err(exception)?;
     check_turns("q0", &start, dof, angles.as_deref())?;
     check_turns("q1", &end, dof, angles.as_deref())?;
-    PyTrajectory::even(py, motion, steps)
+    PyTrajectory::even(motion, steps)
 }
 
 /// Move through many joint vectors on a smooth curve, at rest at both ends.
@@ -283,5 +282,5 @@ pub(super) fn spline(
     });
     let motion = motion.map_err(exception)?;
     check_turns("q", &points, dof, angles.as_deref())?;
-    PyTrajectory::even(py, motion, steps)
+    PyTrajectory::even(motion, steps)
 }

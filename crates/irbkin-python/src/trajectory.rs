@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use pyo3::types::PyFloat;
 
 use super::arguments::{read_angle_limits, read_steps};
@@ -25,26 +26,15 @@ pub(super) struct PyTrajectory {
     /// Names of the joints, of a robot with a file.
     #[pyo3(get, name = "_joint_names")]
     names: Option<Vec<String>>,
-    /// Times of the samples [s], shape (m,).
-    #[pyo3(get)]
-    t: Py<PyArray1<f64>>,
-    /// Joint angles of the samples [rad], shape (m, n).
-    #[pyo3(get)]
-    q: Py<PyArrayDyn<f64>>,
-    /// Joint velocities of the samples [rad/s], shape (m, n).
-    #[pyo3(get)]
-    dq: Py<PyArrayDyn<f64>>,
-    /// Joint accelerations of the samples [rad/s^2], shape (m, n).
-    #[pyo3(get)]
-    ddq: Py<PyArrayDyn<f64>>,
+    /// Times of the samples [s].
+    times: Vec<f64>,
+    /// Arrays of the samples, made when one of them is read first.
+    samples: PyOnceLock<[Py<PyArrayDyn<f64>>; 4]>,
 }
 
 impl PyTrajectory {
-    pub(super) fn new(py: Python<'_>, motion: Trajectory, times: Vec<f64>) -> PyResult<Self> {
-        let states = states(py, &motion, &times, &[times.len(), motion.dof()])?;
-        let [q, dq, ddq] = states.map(read_only);
-        let t = read_only(PyArray1::from_vec(py, times));
-        Ok(Self { motion: Arc::new(motion), names: None, t, q, dq, ddq })
+    pub(super) fn new(motion: Trajectory, times: Vec<f64>) -> Self {
+        Self { motion: Arc::new(motion), names: None, times, samples: PyOnceLock::new() }
     }
 
     /// The trajectory with names of its joints.
@@ -53,13 +43,19 @@ impl PyTrajectory {
     }
 
     /// `steps` samples, evenly over the duration.
-    pub(super) fn even(py: Python<'_>, motion: Trajectory, steps: usize) -> PyResult<Self> {
+    pub(super) fn even(motion: Trajectory, steps: usize) -> PyResult<Self> {
         let times = motion.times(steps).map_err(exception)?;
-        Self::new(py, motion, times)
+        Ok(Self::new(motion, times))
     }
 
-    fn times(&self, py: Python<'_>) -> PyResult<Vec<f64>> {
-        Ok(self.t.bind(py).to_vec()?)
+    /// Times, angles, velocities and accelerations of the samples.
+    fn samples(&self, py: Python<'_>) -> PyResult<&[Py<PyArrayDyn<f64>>; 4]> {
+        self.samples.get_or_try_init(py, || {
+            let times = &self.times;
+            let t = PyArray1::from_slice(py, times).to_dyn().clone();
+            let [q, dq, ddq] = states(py, &self.motion, times, &[times.len(), self.motion.dof()])?;
+            Ok([t, q, dq, ddq].map(read_only))
+        })
     }
 }
 
@@ -79,6 +75,30 @@ fn states<'py>(
 
 #[pymethods]
 impl PyTrajectory {
+    /// Times of the samples [s], shape (m,).
+    #[getter]
+    fn t(&self, py: Python<'_>) -> PyResult<&Py<PyArrayDyn<f64>>> {
+        Ok(&self.samples(py)?[0])
+    }
+
+    /// Joint angles of the samples [rad], shape (m, n).
+    #[getter]
+    fn q(&self, py: Python<'_>) -> PyResult<&Py<PyArrayDyn<f64>>> {
+        Ok(&self.samples(py)?[1])
+    }
+
+    /// Joint velocities of the samples [rad/s], shape (m, n).
+    #[getter]
+    fn dq(&self, py: Python<'_>) -> PyResult<&Py<PyArrayDyn<f64>>> {
+        Ok(&self.samples(py)?[2])
+    }
+
+    /// Joint accelerations of the samples [rad/s^2], shape (m, n).
+    #[getter]
+    fn ddq(&self, py: Python<'_>) -> PyResult<&Py<PyArrayDyn<f64>>> {
+        Ok(&self.samples(py)?[3])
+    }
+
     /// Number of joints.
     #[getter]
     fn dof(&self) -> usize {
@@ -177,19 +197,14 @@ impl PyTrajectory {
     ///         positive.
     ///     TypeError: Not one of both is given, or steps is not a whole number.
     #[pyo3(signature = (steps=None, *, dt=None))]
-    fn resampled(
-        &self,
-        py: Python<'_>,
-        steps: Option<&Bound<'_, PyAny>>,
-        dt: Option<f64>,
-    ) -> PyResult<Self> {
+    fn resampled(&self, steps: Option<&Bound<'_, PyAny>>, dt: Option<f64>) -> PyResult<Self> {
         let motion = (*self.motion).clone();
         let steps = match (steps, dt) {
             (Some(steps), None) => whole_steps(steps)?,
             (None, Some(dt)) => motion.steps_of(dt).map_err(exception)?,
             _ => return Err(PyTypeError::new_err("resampled takes steps, or dt [s]")),
         };
-        Ok(Self::even(py, motion, steps)?.with_names(self.names.clone()))
+        Ok(Self::even(motion, steps)?.with_names(self.names.clone()))
     }
 
     /// Return the motion at another pace.
@@ -199,10 +214,10 @@ impl PyTrajectory {
     ///
     /// Raises:
     ///     InvalidMotionError: The factor is not positive and finite.
-    fn stretched(&self, py: Python<'_>, factor: f64) -> PyResult<Self> {
+    fn stretched(&self, factor: f64) -> PyResult<Self> {
         let motion = (*self.motion).clone().stretched(factor).map_err(exception)?;
-        let times = self.times(py)?.into_iter().map(|time| time * factor).collect();
-        Ok(Self::new(py, motion, times)?.with_names(self.names.clone()))
+        let times = self.times.iter().map(|time| time * factor).collect();
+        Ok(Self::new(motion, times).with_names(self.names.clone()))
     }
 
     /// The part between two times, which begins at t = 0.
@@ -216,49 +231,48 @@ impl PyTrajectory {
     ///
     /// Raises:
     ///     InvalidMotionError: Unless 0 <= start < end <= duration.
-    fn slice(&self, py: Python<'_>, start: f64, end: f64) -> PyResult<Self> {
+    fn slice(&self, start: f64, end: f64) -> PyResult<Self> {
         let motion = self.motion.slice(start, end).map_err(exception)?;
-        let inner = self.times(py)?.into_iter().filter(|time| start < *time && *time < end);
+        let inner = self.times.iter().filter(|time| (start < **time) & (**time < end));
         let times = [0.0].into_iter().chain(inner.map(|time| time - start));
         let times = times.chain([motion.duration()]).collect();
-        Ok(Self::new(py, motion, times)?.with_names(self.names.clone()))
+        Ok(Self::new(motion, times).with_names(self.names.clone()))
     }
 
     /// This motion, then another one that begins where it ends.
-    fn __add__(&self, py: Python<'_>, next: &Bound<'_, Self>) -> PyResult<Self> {
+    fn __add__(&self, next: &Bound<'_, Self>) -> PyResult<Self> {
         let next = next.get();
         let motion = (*self.motion).clone().then(&next.motion).map_err(exception)?;
         let offset = self.motion.duration();
-        let mut times = self.times(py)?;
-        times.extend(next.times(py)?.into_iter().skip(1).map(|time| offset + time));
-        Ok(Self::new(py, motion, times)?.with_names(self.names.clone()))
+        let mut times = self.times.clone();
+        times.extend(next.times.iter().skip(1).map(|time| offset + time));
+        Ok(Self::new(motion, times).with_names(self.names.clone()))
     }
 
-    fn __len__(&self, py: Python<'_>) -> usize {
-        self.t.bind(py).len()
+    fn __len__(&self) -> usize {
+        self.times.len()
     }
 
-    fn __eq__(&self, py: Python<'_>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
-        let Ok(other) = other.cast::<Self>() else { return Ok(false) };
-        let other = other.get();
-        Ok(self.motion == other.motion && self.times(py)? == other.times(py)?)
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<Self>().map(Bound::get);
+        other.is_ok_and(|other| self.motion == other.motion && self.times == other.times)
     }
 
     fn __hash__(&self) -> u64 {
         self.motion.duration().to_bits() ^ self.motion.knots().len() as u64
     }
 
-    fn __repr__(&self, py: Python<'_>) -> String {
+    fn __repr__(&self) -> String {
         format!(
             "Trajectory({} samples of {} joints, {:.6} s)",
-            self.t.bind(py).len(),
+            self.times.len(),
             self.motion.dof(),
             self.motion.duration()
         )
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        reduced(py, "Trajectory", &(&*self.motion, self.times(py)?, &self.names))
+        reduced(py, "Trajectory", &(&*self.motion, &self.times, &self.names))
     }
 }
 
@@ -276,7 +290,6 @@ fn whole_steps(steps: &Bound<'_, PyAny>) -> PyResult<usize> {
 /// and jerk.
 #[pyfunction(name = "_between")]
 pub(super) fn between(
-    py: Python<'_>,
     start: Vec<[f64; 3]>,
     end: Vec<[f64; 3]>,
     limits: Vec<[f64; 3]>,
@@ -293,5 +306,5 @@ pub(super) fn between(
         |[velocity, acceleration, jerk]: [f64; 3]| AxisLimits { velocity, acceleration, jerk };
     let limits: Vec<_> = limits.into_iter().map(limit).collect();
     let motion = irbkin_motion::trajectory::state::between(&start, &end, &limits);
-    PyTrajectory::even(py, motion.map_err(exception)?, 2)
+    PyTrajectory::even(motion.map_err(exception)?, 2)
 }

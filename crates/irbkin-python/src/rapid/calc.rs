@@ -58,7 +58,7 @@ pub(crate) fn calc_joint_t(
 ) -> PyResult<JointTarget> {
     let arm = robot.get().arm();
     let RobTarget(target) = read(target, "target")?;
-    let Cell { tool, wobj } = Cell::read(arm, tool, wobj)?;
+    let (tool, wobj) = tool_and_wobj(arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
     let joints = on!(arm, robot => {
         rapid::calc_joint_t_or(robot, &target, tool, wobj, read_fallback(arm, fallback, seed)?)
@@ -90,7 +90,7 @@ pub(crate) fn calc_rob_t(
 ) -> PyResult<RobTarget> {
     let arm = robot.get().arm();
     let joints = read_joint_target(joints, arm.dof())?;
-    let Cell { tool, wobj } = Cell::read(arm, tool, wobj)?;
+    let (tool, wobj) = tool_and_wobj(arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
     let target = on!(arm, robot => rapid::calc_rob_t(robot, &joints, tool, wobj));
     Ok(RobTarget(target.map_err(exception)?))
@@ -158,7 +158,7 @@ pub(crate) fn calc_targets(
 ) -> PyResult<TargetTable> {
     let py = robot.py();
     let (arm, module) = (robot.get().arm(), &module.get().module);
-    let Cell { tool, wobj } = Cell::read(arm, tool, wobj)?;
+    let (tool, wobj) = tool_and_wobj(arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
     on!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
@@ -168,22 +168,15 @@ pub(crate) fn calc_targets(
 }
 
 /// A tool and a work object, of an arm that has configurations.
-struct Cell {
-    tool: Option<rapid::ToolData>,
-    wobj: Option<rapid::WobjData>,
-}
-
-impl Cell {
-    fn read(
-        arm: &SharedArm,
-        tool: Option<&Bound<'_, PyAny>>,
-        wobj: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
-        let tool = tool.map(|tool| read(tool, "tool")).transpose()?.map(|ToolData(tool)| tool);
-        let wobj = wobj.map(|wobj| read(wobj, "wobj")).transpose()?.map(|WobjData(wobj)| wobj);
-        on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
-        Ok(Self { tool, wobj })
-    }
+fn tool_and_wobj(
+    arm: &SharedArm,
+    tool: Option<&Bound<'_, PyAny>>,
+    wobj: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(Option<rapid::ToolData>, Option<rapid::WobjData>)> {
+    let tool = tool.map(|tool| read(tool, "tool")).transpose()?.map(|ToolData(tool)| tool);
+    let wobj = wobj.map(|wobj| read(wobj, "wobj")).transpose()?.map(|WobjData(wobj)| wobj);
+    on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
+    Ok((tool, wobj))
 }
 
 /// The fallback with a seed [rad].

@@ -65,12 +65,16 @@ pub(crate) fn check<'py>(
     let py = robot.py();
     let context = module.get().context.iter().map(|other| other.bind(py).clone());
     let modules: Vec<_> = core::iter::once(module.clone()).chain(context).collect();
-    let given =
-        CheckOptions { cell: cell.map(|cell| &*cell.get().cell), ..CheckOptions::default() };
-    let options = (max_velocity, step, turn);
     let codes = codes.map(read_codes).transpose()?;
-    let arm = robot.get().arm();
-    let found = on!(arm, arm => checked(py, arm, &modules, options, &given, codes.as_deref()))?;
+    let found = on!(robot.get().arm(), arm => {
+        let options = CheckOptions {
+            codes: codes.as_deref(),
+            motion: read_motion(max_velocity, step, turn)?,
+            cell: cell.map(|cell| &*cell.get().cell),
+            ..CheckOptions::default()
+        };
+        checked(py, arm, &modules, options)?
+    });
     let is_own = |it: &Bound<'_, PyAny>| it.cast::<Finding>().is_ok_and(|it| it.get().module == 0);
     PyTuple::new(py, found.findings.bind(py).iter().filter(is_own).collect::<Vec<_>>())
 }
@@ -98,6 +102,10 @@ pub(crate) fn check<'py>(
 ///         then, and a note if some are missing. None if it is not known.
 ///     of_system: Indices of modules of the system that do not say so by their attributes: a call
 ///         of what none declares is a note there.
+///     tasks: Names and modules of the controller's tasks, this one first; no modules of one that
+///         lacks some. The points at which tasks wait for each other are compared.
+///     signals: Names of the controller's signals: any other name that nothing declares is wrong.
+///         Without them such names may be signals, which is a note.
 ///
 /// Returns:
 ///     `Checked`.
@@ -109,7 +117,7 @@ pub(crate) fn check<'py>(
 #[pyfunction]
 #[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
     cell=None, units=None, last_values=false, tools=None, whole=None, of_system=None,
-    carried=None))]
+    signals=None, carried=None, tasks=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 #[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
 pub(crate) fn check_program<'py>(
@@ -125,30 +133,43 @@ pub(crate) fn check_program<'py>(
     tools: Option<BTreeMap<Option<String>, Bound<'py, PyAny>>>,
     whole: Option<bool>,
     of_system: Option<Vec<usize>>,
+    signals: Option<Vec<String>>,
     carried: Option<BTreeMap<String, Shapes<'py>>>,
+    tasks: Option<Vec<(String, Vec<Bound<'py, RapidModule>>)>>,
 ) -> PyResult<Checked> {
     let py = robot.py();
     let units = units.unwrap_or_default().into_iter().map(read_unit);
     let units = Units(units.collect::<PyResult<Vec<_>>>()?);
-    let options = (max_velocity, step, turn);
     let carried = carried.into_iter().flatten();
     let carried = carried.map(|(name, shapes)| (name.to_lowercase(), shapes.read())).collect();
     let tools = tools.into_iter().flatten();
     let tools = tools.map(|(name, it)| Ok((name.map(|name| name.to_lowercase()), read_tool(&it)?)));
     let tools = tools.collect::<PyResult<BTreeMap<_, _>>>()?;
-    let given = CheckOptions {
-        cell: cell.map(|cell| &*cell.get().cell),
-        units: Some(&units),
-        takes_last: last_values,
-        tools: Some(&tools),
-        is_whole: whole,
-        of_system: of_system.as_deref().unwrap_or_default(),
-        carried: Some(&carried),
-        ..CheckOptions::default()
-    };
+    let signals = signals.map(|all| all.iter().map(|it| it.to_lowercase()).collect());
+    let tasks = tasks.unwrap_or_default();
+    let tasks = tasks.iter().map(|(name, modules)| {
+        let modules = modules.iter().map(|it| &it.get().module);
+        (name.as_str(), modules.collect())
+    });
+    let tasks: Vec<_> = tasks.collect();
     let codes = codes.map(read_codes).transpose()?;
-    let arm = robot.get().arm();
-    on!(arm, arm => checked(py, arm, &modules, options, &given, codes.as_deref()))
+    on!(robot.get().arm(), arm => {
+        let options = CheckOptions {
+            codes: codes.as_deref(),
+            motion: read_motion(max_velocity, step, turn)?,
+            cell: cell.map(|cell| &*cell.get().cell),
+            units: Some(&units),
+            takes_last: last_values,
+            tools: Some(&tools),
+            is_whole: whole,
+            of_system: of_system.as_deref().unwrap_or_default(),
+            signals: signals.as_ref(),
+            tasks: &tasks,
+            carried: Some(&carried),
+            ..CheckOptions::default()
+        };
+        checked(py, arm, &modules, options)
+    })
 }
 
 /// A unit as Python gives it.
@@ -176,29 +197,24 @@ fn read_tool(given: &Bound<'_, PyAny>) -> PyResult<ToolData> {
     Ok(ToolData { tframe, ..ToolData::TOOL0 })
 }
 
-/// A check, with the findings of the wanted codes; `given` are its options for any arm.
+/// How the moves of a program are followed.
+fn read_motion<const N: usize>(
+    max_velocity: Option<&Bound<'_, PyAny>>,
+    step: f64,
+    turn: Option<f64>,
+) -> PyResult<MotionOptions<N>> {
+    let max_velocity = read_limits(max_velocity, "max_velocity")?;
+    let default = MotionOptions::default();
+    Ok(MotionOptions { max_velocity, step, turn: turn.unwrap_or(default.turn), ..default })
+}
+
+/// A check, with the findings of the wanted codes.
 fn checked<const N: usize>(
     py: Python<'_>,
     arm: &Arm<N>,
     modules: &[Bound<'_, RapidModule>],
-    (max_velocity, step, turn): (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
-    given: &CheckOptions<'_>,
-    codes: Option<&[Code]>,
+    options: CheckOptions<'_, N>,
 ) -> PyResult<Checked> {
-    let max_velocity = read_limits(max_velocity, "max_velocity")?;
-    let turn = turn.unwrap_or(MotionOptions::<N>::default().turn);
-    let options = CheckOptions {
-        codes,
-        motion: MotionOptions { max_velocity, step, turn, ..MotionOptions::default() },
-        cell: given.cell,
-        units: given.units,
-        takes_last: given.takes_last,
-        tools: given.tools,
-        is_whole: given.is_whole,
-        of_system: given.of_system,
-        carried: given.carried,
-        ..CheckOptions::default()
-    };
     let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();
     let texts: Vec<_> = own.iter().map(|it| (&it.module, it.source.as_str())).collect();
     let rapid::Checked { findings, moves } = detached_until(py, |interrupt| {

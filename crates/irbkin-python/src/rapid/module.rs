@@ -1,5 +1,7 @@
 //! `irbkin.rapid.Module`.
 
+use std::collections::BTreeSet;
+
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedStr;
 use pyo3::sync::PyOnceLock;
@@ -278,10 +280,12 @@ pub(super) fn close_names<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
     /// Share of the letters that must be right [1].
     const LEAST_SIMILARITY: f64 = 0.6;
     const MOST_CLOSE: usize = 4;
+    let others = known.iter().filter(|it| !it.eq_ignore_ascii_case(wanted));
+    let others: BTreeSet<&str> = others.copied().collect();
     let wanted = wanted.to_lowercase();
     let similarity =
         |name: &str| strsim::normalized_damerau_levenshtein(&wanted, &name.to_lowercase());
-    let mut close = similar(known.iter().copied(), similarity, LEAST_SIMILARITY);
+    let mut close = similar(others.into_iter(), similarity, LEAST_SIMILARITY);
     close.truncate(MOST_CLOSE);
     close
 }

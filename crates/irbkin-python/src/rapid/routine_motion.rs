@@ -148,7 +148,7 @@ fn made<'py, const N: usize>(
         py.detach(|| rapid::motion(arm, &modules, routine, &options)).map_err(exception)?;
     let index = |number: usize| i64::try_from(number).unwrap_or(-1);
     let line = |of: &usize| index(motion.moves.get(*of).map_or(0, |step| step.line));
-    let trajectory = PyTrajectory::new(py, motion.trajectory.clone(), motion.t.clone())?
+    let trajectory = PyTrajectory::new(motion.trajectory.clone(), motion.t.clone())
         .with_names(arm.joint_names().map(<[String]>::to_vec));
     let q = PyArray1::from_slice(py, motion.q.as_flattened()).reshape([motion.q.len(), N])?;
     let moves = motion.moves.iter().map(|step| MotionMove::of(py, step));
