@@ -43,7 +43,7 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
     name = options["robot"].strip()
     base, tip, snap = (given(key) for key in ("base_link", "tip", "snap"))
     if name.lower().endswith(".urdf"):
-        robot = Robot.from_urdf(name, base, tip, snap=snap or 0.0)
+        robot = Robot.from_urdf(name, base, tip, snap=snap)
         if helpful := re.search(r"snap=(\S+ gives [^)]*)\)", repr(robot)):
             say(f"{name}: its angles are rounded, --snap {helpful[1]}")
     elif (base, tip, snap) == (None, None, None):
@@ -54,7 +54,14 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
     if given("base") is not None:
         robot = robot.with_base(frame(options["base"], "--base"))
     if given("tool") is not None:
-        robot = _with_tool(robot, options["tool"])
+        tool = frame(options["tool"], "--tool")
+        try:
+            robot = robot.with_tool(tool)
+        except InvalidPoseError:
+            length = math.hypot(*options["tool"][:3])
+            raise IrbkinError(
+                f"--tool is {length:g} mm from the flange, more than ten times the size of the arm"
+            ) from None
     if given("limits"):
         limits = robot.limits.copy()
         for axis, *bounds in options["limits"]:
@@ -72,17 +79,6 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
 def is_arm_file(name: str) -> bool:
     """Whether the name of a robot is a file."""
     return name.lower().endswith(".urdf") or ROBOTSTUDIO.fullmatch(name) is not None
-
-
-def _with_tool(robot: Robot, numbers: Sequence[float]) -> Robot:
-    tool = frame(numbers, "--tool")
-    try:
-        return robot.with_tool(tool)
-    except InvalidPoseError:
-        length = math.hypot(*numbers[:3])
-        raise IrbkinError(
-            f"--tool is {length:g} mm from the flange, more than ten times the size of the arm"
-        ) from None
 
 
 def frame(numbers: Sequence[float], name: str) -> Floats:

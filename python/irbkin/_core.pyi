@@ -538,7 +538,7 @@ class Robot:
         tip: str | None = None,
         name: str = "",
         *,
-        snap: float = 0.0,
+        snap: float | None = None,
     ) -> Robot: ...
     @staticmethod
     def from_robotstudio(
@@ -1495,7 +1495,9 @@ def check_program(
     tools: Mapping[str | None, ToolData | npt.ArrayLike] | None = None,
     whole: bool | None = None,
     of_system: Sequence[int] | None = None,
+    signals: Sequence[str] | None = None,
     carried: Mapping[str, Shape | Sequence[Shape]] | None = None,
+    tasks: Sequence[tuple[str, Sequence[Module]]] | None = None,
 ) -> Checked: ...
 def check_codes() -> list[tuple[str, str, str, bool]]: ...
 def instructions() -> list[tuple[str, str, str]]: ...

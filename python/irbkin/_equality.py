@@ -25,9 +25,6 @@ def by_value(record: _Record) -> _Record:
     def is_equal(self: tuple[object, ...], other: object) -> bool:
         return same(self, other) if isinstance(other, tuple) else NotImplemented
 
-    def is_unequal(self: tuple[object, ...], other: object) -> bool:
-        return not same(self, other) if isinstance(other, tuple) else NotImplemented
-
-    for name, method in (("__eq__", is_equal), ("__ne__", is_unequal), ("__hash__", None)):
+    for name, method in (("__eq__", is_equal), ("__ne__", object.__ne__), ("__hash__", None)):
         setattr(record, name, method)
     return record

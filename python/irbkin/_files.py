@@ -81,8 +81,7 @@ def replaced(path: str | os.PathLike[str], before: bytes | None = None) -> Itera
         try:
             with open(handle, "w+b") as file:
                 if old is not None:
-                    _keep(old, handle, beside)
-                    _keep_attributes(target, handle)
+                    _keep(target, old, handle, beside)
                 yield file
                 file.flush()
                 os.fsync(handle)
@@ -160,8 +159,10 @@ def _target(name: str) -> str:
     return target
 
 
-def _keep(old: os.stat_result, handle: int, beside: str) -> None:
-    """Give a new file the owner, the group and the permissions of the old one."""
+def _keep(target: str, old: os.stat_result, handle: int, beside: str) -> None:
+    """Give a new file the owner, the group, the permissions and, where the system has them, the
+    extended attributes of the old one.
+    """
     if hasattr(os, "fchown"):
         for owner in (old.st_uid, -1):
             with contextlib.suppress(OSError):
@@ -170,6 +171,10 @@ def _keep(old: os.stat_result, handle: int, beside: str) -> None:
     mode = old.st_mode & 0o777
     if os.fstat(handle).st_mode & 0o777 != mode:
         os.chmod(handle if os.chmod in os.supports_fd else beside, mode)
+    with contextlib.suppress(AttributeError, OSError):
+        for name in os.listxattr(target):
+            with contextlib.suppress(OSError):
+                os.setxattr(handle, name, os.getxattr(target, name))
 
 
 def _created(beside: str, mode: int) -> tuple[int, bool]:
@@ -179,14 +184,6 @@ def _created(beside: str, mode: int) -> tuple[int, bool]:
         return os.open(os.path.dirname(beside) or ".", os.O_RDWR | os.O_TMPFILE, mode), True
     flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     return os.open(beside, flags, mode), False
-
-
-def _keep_attributes(old: str, handle: int) -> None:
-    """Give a new file the extended attributes of the old one, where the system has them."""
-    with contextlib.suppress(AttributeError, OSError):
-        for name in os.listxattr(old):
-            with contextlib.suppress(OSError):
-                os.setxattr(handle, name, os.getxattr(old, name))
 
 
 def _content(name: str) -> bytes:

@@ -17,9 +17,16 @@ MOST_ROUNDS = 1000
 def draw(
     robot: Robot, limits: Floats, n: int | None, rng: np.random.Generator | int | None
 ) -> Floats:
-    """Draw joint vectors inside limits [rad], shape (dof, 2), and inside the linkage's."""
+    """Draw joint vectors inside limits [rad], shape (dof, 2), and inside the linkage's; over a full
+    turn of a joint that can turn without end.
+    """
     generator = np.random.default_rng(rng)
-    lower, upper = _ends(limits)
+    turn = 2.0 * math.pi
+    lowest, highest = limits.T
+    from_below = np.where(np.isfinite(highest), highest - turn, -math.pi)
+    from_above = np.where(np.isfinite(lowest), lowest + turn, math.pi)
+    lower = np.where(np.isfinite(lowest), lowest, from_below)
+    upper = np.where(np.isfinite(highest), highest, from_above)
     count = 1 if n is None else operator.index(n)
     q = generator.uniform(lower, upper, (count, robot.dof))
     if robot.linkage_limits is not None:
@@ -31,15 +38,3 @@ def draw(
         else:
             raise InvalidModelError("the limits of joints 2 and 3 leave the linkage no room")
     return q[0] if n is None else q
-
-
-def _ends(limits: Floats) -> tuple[Floats, Floats]:
-    """Lower and upper ends [rad]: a full turn of a joint that can turn without end."""
-    lower, upper = limits.T
-    turn = 2.0 * math.pi
-    from_below = np.where(np.isfinite(upper), upper - turn, -math.pi)
-    from_above = np.where(np.isfinite(lower), lower + turn, math.pi)
-    return (
-        np.where(np.isfinite(lower), lower, from_below),
-        np.where(np.isfinite(upper), upper, from_above),
-    )

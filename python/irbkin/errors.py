@@ -87,9 +87,8 @@ class RapidError(IrbkinError):
 class UnknownNameError(RapidError, KeyError):
     """A RAPID module has no data of that name; the message has the close ones."""
 
-    def __str__(self) -> str:
-        """The message as it is: KeyError would put it in quotes."""
-        return str(self.args[0]) if self.args else ""
+    # KeyError would put the message in quotes.
+    __str__ = IrbkinError.__str__
 
 
 class UnknownRobotError(IrbkinError, KeyError):
@@ -97,6 +96,5 @@ class UnknownRobotError(IrbkinError, KeyError):
     out.
     """
 
-    def __str__(self) -> str:
-        """The message as it is: KeyError would put it in quotes."""
-        return str(self.args[0]) if self.args else ""
+    # KeyError would put the message in quotes.
+    __str__ = IrbkinError.__str__

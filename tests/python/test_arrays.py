@@ -71,6 +71,26 @@ def test_a_single_vector_may_be_any_sequence_of_numbers(robot):
     np.testing.assert_array_equal(robot.fk(robot.ik(wanted)[0]), robot.fk(robot.ik(wanted).q[0]))
 
 
+def test_a_list_of_any_numbers_is_read_as_its_array_is(robot):
+    for given in ([0, 1, 0, -1, 0.5, 0], list(Q), [np.float32(0.1), 0, 0, 0, 0, 0]):
+        np.testing.assert_array_equal(robot.fk(given), robot.fk(np.array(given, dtype=float)))
+    for wrong in (
+        [0.1] * 5,
+        [*Q[:5], "0.6"],
+        [*Q[:5], None],
+        [*Q[:5], 1j],
+        [*Q[:5], np.nan],
+        [*Q[:5], 10**400],
+        [*Q[:5], [0.6]],
+        [True] * 6,
+    ):
+        with pytest.raises((TypeError, ValueError)) as by_list:
+            robot.fk(wrong)
+        with pytest.raises((TypeError, ValueError)) as by_tuple:
+            robot.fk(tuple(wrong))
+        assert (by_list.type, str(by_list.value)) == (by_tuple.type, str(by_tuple.value))
+
+
 def test_a_misaligned_array_is_taken_too(robot, many):
     """Records that were read from a packed file stand at odd addresses."""
     assert not misaligned(Q).flags.aligned

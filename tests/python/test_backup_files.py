@@ -2,6 +2,7 @@
 
 import os
 import time
+from collections import Counter
 
 import irbkin
 import pytest
@@ -245,7 +246,9 @@ def test_modules_have_the_order_of_backinfo_and_missing_ones_are_said(tmp_path):
         "warning",
         "T_ROB1: the backup lacks its module PROGMOD/Gone.mod",
     )
-    assert codes(backup) == ["doubled-module", "module-missing", "module-missing"]
+    assert found["module-unlisted"][0] == "note"
+    counts = Counter(codes(backup))
+    assert counts == {"doubled-module": 1, "module-missing": 2, "module-unlisted": 2}
 
 
 def test_a_s4c_backup_has_one_task_that_moves(tmp_path):

@@ -11,7 +11,10 @@ import pytest
 from irbkin._core import instructions
 
 NAME = "IRB 2600-12/1.65"
-CALLS = "MODULE M\nPROC main()\n{}\nENDPROC\nPROC rOpenGripper()\nENDPROC\nENDMODULE\n"
+CALLS = (
+    "MODULE M VAR num x; VAR robtarget p; VAR string f;\nPROC main()\n{}\nENDPROC\n"
+    "PROC rOpenGripper()\nENDPROC\nENDMODULE\n"
+)
 
 
 def found(folder, calls):
@@ -70,7 +73,9 @@ def test_names_that_options_have_are_no_errors(tmp_path):
     calls = (
         "CornerPathWarning FALSE;\nLinked_m_exe;\nEventLog 1,2;\nSoftElbow\\On;\n"
         "FitSphere ps,pc,r,e;\nCnvPredictReach p;\nTcPickupTool t;\nSMoveL p,v100,z10,t;\n"
-        'ConsoleWrite "a";\nIF HR_RobotInHome() HR_Exit;\nGetItmTgt s,t;\nPmWaitProjStart;'
+        'ConsoleWrite "a";\nIF HR_RobotInHome() HR_Exit;\nGetItmTgt s,t;\nPmWaitProjStart;\n'
+        "AckItmTgt s,t,TRUE;\nPDispAdd p;\nSearch_Part p,p,v9,t;\np:=PoseAdd(p,p);\n"
+        "f:=ReadStr(x\\Status:=x);"
     )
     assert [it for it in found(tmp_path, calls) if it[0].startswith("N")] == []
 

@@ -56,8 +56,10 @@ def test_a_load_is_above_zero_and_at_most_the_payload(tmp_path, mass, code):
     called = module(TOOL.format("tGun", 150, mass), "Go tGun;", go)
     assert [it[0] for it in checked(tmp_path, called)] == ([code] if code else [])
     load = f"PERS loaddata lPart:=[{mass},[0,0,50],[1,0,0,0],0,0,0];\n"
-    gripped = module(load + TOOL.format("tGun", 150, 1), f"GripLoad lPart;\n{move}")
-    assert [it[0] for it in checked(tmp_path, gripped)] == ([code] if code else [])
+    gripped = module(load + TOOL.format("tGun", 150, 0.5), f"GripLoad lPart;\n{move}")
+    # With the tool, 12 kg are too much.
+    own = code or ("T302" if mass + 0.5 > 12 else None)
+    assert [it[0] for it in checked(tmp_path, gripped)] == ([own] if own else [])
     # What the program assigns or nothing uses has no load in the text.
     for text in (f"tGun.tload.mass:=2;\n{move}", "! tGun", 'TPWrite "tGun";'):
         assert not checked(tmp_path, module(TOOL.format("tGun", 150, mass), text), code="T301")
@@ -163,3 +165,81 @@ def test_shapes_of_tools_are_read_as_obstacles_are(tmp_path):
         cell.write_text(TABLE + text)
         with pytest.raises(InvalidModelError, match=words):
             Cell.load(cell)
+
+
+LOAD = "PERS loaddata {}:=[{},[{}],[{}],{}];\n"
+MOVE = f"MoveJ {POINT.format(900, -300, 500)},v500,fine,tGun;"
+
+
+@pytest.mark.parametrize(
+    ("cog", "aom", "inertia", "code", "words"),
+    [
+        ("0,0,50", "1,0,0,0", "0.01,0.02,0.02", None, ""),
+        ("0,0,50", "1,0,0,0", "5,5,5", None, ""),
+        ("0,0,50", "1,0,0,0", "100,200,300", "T304", "its inertia is 300 kg m^2, more than 5 kg"),
+        ("0,0,50", "1,0,0,0", "0.01,0.01,0.0201", None, ""),
+        ("0,0,50", "1,0,0,0", "0.01,0.01,0.03", "T302", "its inertia of 0.03 kg m^2 is more than"),
+        ("0,0,50", "1,0,0,0", "0,0,0.03", None, ""),
+        ("0,0,50", "0.7071,0.7071,0,0", "0,0,0", None, ""),
+        ("0,0,50", "1,1,0,0", "0,0,0", "T302", "its aom has the length 1.41421, a quaternion has"),
+        ("0,0,50", "0,0,0,0", "0,0,0", "T302", "its aom has the length 0"),
+        ("0,0,0", "1,0,0,0", "0,0,0", "T305", "its center of gravity is [0,0,0]"),
+        ("0,0,450", "1,0,0,0", "0,0,0", None, ""),
+        ("0,0,451", "1,0,0,0", "0,0,0", "T305", "its center of gravity is 451 mm from the flange"),
+    ],
+)
+def test_a_load_is_a_body_in_the_units_of_rapid(tmp_path, cog, aom, inertia, code, words):
+    data = f"PERS tooldata tGun:=[TRUE,[[0,0,150],[1,0,0,0]],[5,[{cog}],[{aom}],{inertia}]];\n"
+    found = checked(tmp_path, module(data, MOVE))
+    assert [it[0] for it in found] == ([code] if code else [])
+    assert all(it[2].startswith(f"tooldata tGun: {words}") for it in found)
+    severity = {"T304": "error", "T302": "warning", "T305": "note"}
+    own = listed(run("--robot", NAME, "--json", tmp_path / "m.mod").stdout)
+    assert [it["severity"] for it in own] == ([severity[code]] if code else [])
+    # A load has no TCP.
+    load = LOAD.format("lPart", 5, cog, aom, inertia)
+    gripped = module(load + TOOL.format("tGun", 150, 1), f"GripLoad lPart;\n{MOVE}")
+    is_far = "from the flange" in words
+    assert [it[0] for it in checked(tmp_path, gripped)] == ([code] if code and not is_far else [])
+    # What the program assigns or does not use is not checked.
+    for moves in (f"tGun.tload.cog.z:=40;\n{MOVE}", f"IF TRUE tGun:=tool0;\n{MOVE}", "! tGun"):
+        assert not checked(tmp_path, module(data, moves), code=code)
+    # What a routine declares may be filled by any call.
+    own = data.replace("PERS", "VAR")
+    assert not checked(tmp_path, module("", f'{own}GetDataVal "t",tGun;\n{MOVE}'), code=code)
+    stationary = module(data.replace("TRUE", "FALSE"), f"ConfJ\\Off;\nStop;\n{MOVE}")
+    assert not is_far or not checked(tmp_path, stationary, code=code)
+
+
+def test_several_faults_of_a_load_are_all_reported(tmp_path):
+    data = "PERS tooldata tGun:=[TRUE,[[0,0,150],[1,0,0,0]],[15,[0,0,0],[2,0,0,0],20,1,1]];\n"
+    found = checked(tmp_path, module(data, MOVE))
+    assert [it[0] for it in found] == ["T302", "T302", "T304", "T305"]
+
+
+def test_a_tool_that_has_a_tcp_has_a_load(tmp_path):
+    data = "PERS tooldata tGun:=[TRUE,[[{}],[1,0,0,0]],[0.001,[0,0,0.001],[1,0,0,0],0,0,0]];\n"
+    ((code, _, message),) = checked(tmp_path, module(data.format("0,0,150"), MOVE))
+    assert code == "T305"
+    assert message == "tooldata tGun: it has a TCP, but load0: identify or enter its load"
+    assert not checked(tmp_path, module(data.format("0,0,0"), MOVE))
+
+
+def test_a_tool_and_what_it_grips_are_at_most_the_payload(tmp_path):
+    load = LOAD.format("lPart", 8, "0,0,50", "1,0,0,0", "0,0,0")
+    grip = f"GripLoad lPart;\n{MOVE}"
+    for mass, count in ((4, 0), (4.5, 1)):
+        found = checked(tmp_path, module(load + TOOL.format("tGun", 150, mass), grip))
+        assert [it[0] for it in found] == ["T302"] * count
+    words = "loaddata lPart: its 8 kg and the 4.5 kg of tGun are more than the 12 kg of IRB 2600"
+    assert found[0][2].startswith(words)
+    assert found[0][1].startswith("PERS loaddata lPart")
+    heavy = load + TOOL.format("tGun", 150, 4.5)
+    # With a lighter tool it may be right; what is assigned or not gripped is not known.
+    light = TOOL.format("tLight", 150, 1)
+    also = f"{grip}\n{MOVE.replace('tGun', 'tLight').replace('v500', 'v300')}"
+    assert not checked(tmp_path, module(heavy + light, also))
+    assert len(checked(tmp_path, module(heavy + light, grip))) == 1
+    assert not checked(tmp_path, module(heavy, f"tGun.tload.mass:=1;\n{grip}"))
+    assert not checked(tmp_path, module(heavy, f"lPart.mass:=1;\n{grip}"))
+    assert not checked(tmp_path, module(heavy, f"! GripLoad lPart;\n{MOVE}"))

@@ -169,7 +169,7 @@ def test_only_one_module_of_the_package_writes_files():
         if any(map(opened_to_write, calls(file)))
     }
     # An archive is unpacked into a temporary folder; the server of editors takes stdout.
-    assert found == {"_files.py", "abb/archives.py", "lsp/__init__.py"}
+    assert found == {"_files.py", "abb/folders.py", "lsp/__init__.py"}
 
 
 @pytest.mark.parametrize(
@@ -201,8 +201,8 @@ def test_what_libraries_write_goes_through_it():
     }
     assert found == {
         # Files of `replaced`, or in memory.
-        ("map/_store.py", "savez", "archive"),
-        ("plot/_picture.py", "savefig", "file"),
+        ("map.py", "savez", "archive"),
+        ("plot.py", "savefig", "file"),
         # A scene, which is a writer above.
         ("cli/plot.py", "save", "output"),
         ("cli/view.py", "save", "output"),

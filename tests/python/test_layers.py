@@ -63,7 +63,7 @@ def test_no_files_use_one_another_in_a_circle():
 
 def test_what_python_modules_import_is_seen():
     """Names that packages hand on, imports in functions, and names of a package imported whole."""
-    assert "scene/_data" in USED["scene/_strokes"]
+    assert "scene/_data" in USED["scene/_svg"]
     assert "lsp" in USED["cli/lsp"]
     assert "_core" in USED["cli/catalog"]
     assert "check/jobs" in USED["check/fixes"]

@@ -85,15 +85,6 @@ def test_the_map_does_not_depend_on_blocks_and_threads(options):
     assert irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, **options) == whole()
 
 
-def test_more_orientations_than_are_solved_at_a_time_are_all_counted(monkeypatch):
-    from irbkin.map import _solved
-
-    wanted = whole()
-    for size in (1, 5, 30):
-        monkeypatch.setattr(_solved, "AT_A_TIME", size)
-        assert whole() == wanted
-
-
 def test_a_map_is_written_and_read(tmp_path):
     output = tmp_path / "maps" / "reach.npz"
     with pytest.raises(FileNotFoundError, match="its folder does not exist"):

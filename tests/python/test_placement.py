@@ -104,14 +104,14 @@ def test_the_answer_is_the_same_every_time_and_on_every_number_of_threads():
 
 @pytest.mark.parametrize("path", [False, True])
 def test_blocks_do_not_change_the_answer(monkeypatch, path):
-    from irbkin.placement import _search
+    from irbkin import placement
 
     ends = [irbkin.pose([1.3, y, 0.5], euler_zyx=[0, 2.8, 0]) for y in (-0.4, 0.4)]
     T = irbkin.paths.line(*ends, steps=10) if path else targets()
     T[0, 2, 3] += 0.0 if path else 9.0
     wanted = best_base(ROBOT, T, REGION, steps=4, path=path)
     assert wanted.nowhere == (() if path else (0,))
-    monkeypatch.setattr(_search, "IN_A_BLOCK", 100)
+    monkeypatch.setattr(placement, "IN_A_BLOCK", 100)
     assert best_base(ROBOT, T, REGION, steps=4, path=path) == wanted
 
 

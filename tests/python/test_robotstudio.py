@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import robotstudio_files as files
 from irbkin import Robot
-from irbkin._robotstudio import containers
+from irbkin._robotstudio import elements
 from irbkin.errors import InvalidModelError
 
 SPELLINGS = ("attributes", "values", "texts")
@@ -243,7 +243,7 @@ def test_what_is_none_of_these_files_is_refused(tmp_path, content, words):
 
 
 def test_sizes_are_checked_before_they_are_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(containers, "MOST_XML", 10_000)
+    monkeypatch.setattr(elements, "MOST_XML", 10_000)
     held = files.archive({"PIM.xml": b"<a>" + b" " * 50_000_000 + b"</a>"})
     assert len(held) < 100_000
     said = refused(tmp_path, held, "PIM.xml has 50000007 bytes, at most 10000 are read", "a.rslib")
@@ -252,7 +252,7 @@ def test_sizes_are_checked_before_they_are_read(tmp_path, monkeypatch):
     lie = held.replace((50_000_007).to_bytes(4, "little"), (100).to_bytes(4, "little"))
     refused(tmp_path, lie, "broken archive|not XML", "a.rslib")
     refused(tmp_path, b"<a>" + b" " * 20_000 + b"</a>", "more than 10000 bytes")
-    monkeypatch.setattr(containers, "MOST_BYTES", 10_000)
+    monkeypatch.setattr(elements, "MOST_BYTES", 10_000)
     several = {f"Libraries/{i}.rslib": files.archive({"PIM.xml": bytes(6_000)}) for i in range(3)}
     refused(tmp_path, files.archive(several), "a", "a.rspag")
 
@@ -307,7 +307,7 @@ def test_a_file_of_100_kb_takes_a_second_and_150_mb(tmp_path, body, is_packed):
     words = (
         "import irbkin, numpy, resource, sys, time\n"
         "used = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
-        "from irbkin._robotstudio import pim\n"
+        "from irbkin._robotstudio import mechanisms\n"
         "began, before = time.process_time(), used()\n"
         "try:\n"
         "    irbkin.Robot.from_robotstudio(sys.argv[1])\n"

@@ -10,9 +10,8 @@ import pytest
 from irbkin import rapid, scene, trajectory
 from irbkin.body import Body, Shape
 from irbkin.scene._arms import link_frames, outward, solids
-from irbkin.scene._look import UPWARD
-from irbkin.scene._plain import plain
-from irbkin.scene._strokes import pieces
+from irbkin.scene._data import plain
+from irbkin.scene._svg import UPWARD, pieces
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])

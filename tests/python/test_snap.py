@@ -1,5 +1,5 @@
-"""Right angles that were written with few digits are made exact where that is asked for, and the
-refusal says how.
+"""Right angles that were written with few digits are made exact: of a URDF where its digits allow
+that, else where it is asked for, and the refusal says how.
 """
 
 import pickle
@@ -137,3 +137,88 @@ def test_a_file_with_three_digits_says_what_snap_gives_and_by_how_much_it_moves_
     # Of 64 postures and of 5000, in two digits.
     assert 0.8 * moved < float(found[2]) < 1.05 * moved
     assert found[2] in str(robot)
+
+
+def elbow(angle, scale=1.0):
+    """XARM6's first joints with a spherical wrist, whose right angles are as given."""
+    lengths = [("0 0 %g", 0.3), ("%g 0 0", 0.1), ("%g 0 0", 0.4), ("0 %g 0", 0.5)]
+    places = [words % (scale * length) for words, length in lengths] + ["0 0 0"] * 2
+    turns = [0, -1, 0, -1, 1, -1]
+    origins = zip(places, turns, strict=True)
+    return urdf(
+        [(place, f"{'-' * (turn < 0)}{angle if turn else 0} 0 0") for place, turn in origins], angle
+    )
+
+
+Q = np.random.default_rng(9).uniform(-np.pi, np.pi, (2000, 6))
+MOVES = re.compile(r"made exact, which moves the tool by up to (\S+) m, (\S+) rad \(snap=0 keeps")
+
+
+@pytest.mark.parametrize(
+    "angle",
+    ["1.5708", "1.57080", "1.570796", "1.5707963", "1.57079633", "1.570796325", "1.57079629"],
+)
+def test_rounded_right_angles_of_a_file_are_made_exact(angle):
+    text = elbow(angle)
+    robot, kept, exact = (
+        Robot.from_urdf(text),
+        Robot.from_urdf(text, snap=0),
+        Robot.from_urdf(elbow(repr(np.pi / 2))),
+    )
+    error = abs(float(angle) - np.pi / 2)
+    assert (robot.structure, kept.structure) == ("spherical wrist", "general")
+    np.testing.assert_array_equal(robot.mdh, exact.mdh)
+    moves, turns = map(float, MOVES.search(repr(robot)).groups())
+    assert "made exact" in str(robot)
+    assert "made exact" not in repr(kept) + repr(exact)
+    assert turns == pytest.approx(4 * error, rel=0.06)
+    moved = np.linalg.norm((robot.fk(Q) - kept.fk(Q))[:, :3, 3], axis=1).max()
+    # In two digits.
+    assert 0 < moved < 1.05 * moves < 1e-4
+    assert pickle.loads(pickle.dumps(robot)) == robot
+    assert all(robot.ik(pose).certified for pose in robot.fk(Q[:200]))
+
+
+@pytest.mark.parametrize(
+    "angle",
+    [
+        "1.571",
+        "1.57",
+        "1.5707",
+        "1.5709",
+        "1.5690",
+        "1.57079",
+        "1.570797",
+        "1.5708e0",
+        "1.570796200000",
+        "1.5707963000000",
+    ],
+)
+def test_angles_that_the_digits_of_a_file_do_not_explain_are_kept(angle):
+    text = elbow(angle)
+    robot = Robot.from_urdf(text)
+    assert robot.structure == "general"
+    assert "right angles" not in repr(robot)
+    np.testing.assert_array_equal(robot.mdh, Robot.from_urdf(text, snap=0).mdh)
+
+
+def test_right_angles_that_would_move_the_tool_too_far_are_kept():
+    text = elbow("1.5708", scale=40)
+    robot = Robot.from_urdf(text)
+    told = r"right angles kept: exact ones would move the tool by up to 1\.\de-4 m, 1\.5e-5 rad"
+    assert re.search(told, repr(robot))
+    assert robot.structure == "general"
+    np.testing.assert_array_equal(robot.mdh, Robot.from_urdf(text, snap=0).mdh)
+    asked = Robot.from_urdf(text, snap=1e-5)
+    assert asked.structure == "spherical wrist"
+    assert "right angles kept" not in repr(asked)
+
+
+def test_a_written_robot_with_rounded_angles_is_read_as_it_is_with_a_snap_of_zero():
+    robot = Robot.from_sdh(PUMA)
+    text = robot.to_urdf()
+    np.testing.assert_allclose(Robot.from_urdf(text, snap=0).fk(Q), robot.fk(Q), rtol=0, atol=1e-14)
+    read = Robot.from_urdf(text)
+    assert read.structure == "spherical wrist"
+    moved = np.linalg.norm((read.fk(Q) - robot.fk(Q))[:, :3, 3], axis=1).max()
+    assert 0 < moved < 1.05 * float(MOVES.search(repr(read))[1])

@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from irbkin._arguments import close
+from irbkin._arguments import check_extra, close
 from irbkin._arrays import Floats
 from irbkin.errors import InvalidModelError, IrbkinError
 
@@ -107,12 +107,8 @@ def parsed(text: str) -> dict[str, Any]:
     try:
         import tomllib
     except ImportError:
-        try:
-            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
-        except ImportError as missing:
-            raise ImportError(
-                "Python 3.10 reads TOML by tomli: pip install 'irbkin[mesh]'", name="tomli"
-            ) from missing
+        check_extra("TOML in Python 3.10", "mesh", "tomli")
+        import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
     try:
         return tomllib.loads(text)
     # Python refuses whole numbers of thousands of digits.

@@ -17,8 +17,16 @@ import numpy.typing as npt
 
 from irbkin._core import Cell, Shape, _urdf_text
 from irbkin._mesh_files import mesh, triangles
-from irbkin._urdf_elements import attribute_of, mesh_path, number_of, numbers_of, origin_of
-from irbkin._urdf_joints import described, fix, follows
+from irbkin._urdf import (
+    attribute_of,
+    described,
+    fix,
+    follows,
+    mesh_path,
+    number_of,
+    numbers_of,
+    origin_of,
+)
 from irbkin.errors import InvalidModelError, IrbkinError
 
 _LAST_LINK = 7

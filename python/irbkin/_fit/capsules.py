@@ -104,7 +104,8 @@ def split(points: Array, count: int, rng: np.random.Generator) -> npt.NDArray[np
 
 def least(points: Array, solid: Solid, start: Array | None, values: int) -> Array:
     """The capsule of small cost that contains points, near a principal axis or one given."""
-    corners = corners_of(points)
+    hull = hull_of(points)
+    corners = points if hull is None else points[hull.vertices]
     middle, size = corners.mean(axis=0), max(np.ptp(corners, axis=0).max(), 1e-6)
     lines = [np.concatenate([middle, way]) for way in axes_of(corners)]
     if start is not None and np.any(start[:3] != start[3:6]):
@@ -196,13 +197,12 @@ def axes_of(points: Array) -> Array:
     return np.linalg.eigh(off.T @ off)[1].T
 
 
-def corners_of(points: Array) -> Array:
-    """The corners of the convex hull, or all points where it has no volume."""
+def hull_of(points: Array) -> ConvexHull | None:
+    """The convex hull; None where it has no volume."""
     try:
-        corners: Array = points[ConvexHull(points).vertices]
+        return ConvexHull(points)
     except (QhullError, ValueError):
-        return points
-    return corners
+        return None
 
 
 def unit(ways: Array) -> Array:

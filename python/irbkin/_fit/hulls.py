@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import ConvexHull, QhullError  # type: ignore[import-untyped]
+from scipy.spatial import ConvexHull  # type: ignore[import-untyped]
 
-from irbkin._fit.capsules import axes_of, unit
-from irbkin._fit.solid import Array
+from irbkin._fit.capsules import axes_of, hull_of, unit
+from irbkin._fit.solid import Array, doubled_areas
 
 # Hulls of a link, corners of a hull.
 MOST, CORNERS = 6, 64
@@ -28,9 +28,6 @@ ENOUGH = (0.001, 0.0025)
 # More than the rounding of a radius, and half of the thickness of what has none [m].
 ROUNDING, THICKNESS = 1e-8, 1e-6
 
-# Link, points, faces, radius: as `Body.hulls`.
-Row = tuple[int, Array, npt.NDArray[np.intp], float]
-
 
 class Part(NamedTuple):
     """Triangles, and the corners of their hull."""
@@ -38,11 +35,6 @@ class Part(NamedTuple):
     triangles: Array
     corners: Array
     volume: float
-
-
-def hulls_of(link: int, triangles: Array) -> list[Row]:
-    """Hulls that contain triangles, and what is inside of closed ones."""
-    return [(link, *rounded(part.corners)) for part in parts_of(triangles)]
 
 
 def parts_of(triangles: Array) -> list[Part]:
@@ -60,18 +52,16 @@ def parts_of(triangles: Array) -> list[Part]:
 
 def part_of(triangles: Array) -> Part:
     points = np.unique(triangles.reshape(-1, 3), axis=0)
-    try:
-        hull = ConvexHull(points)
-    except (QhullError, ValueError):
+    hull = hull_of(points)
+    if hull is None:
         return Part(triangles, points, 0.0)
     return Part(triangles, points[hull.vertices], float(hull.volume))
 
 
 def best_cut(part: Part) -> tuple[float, list[Part]]:
     """By how much a plane chosen by the largest triangles lessens the volume [m^3], its halves."""
-    a, b, c = part.triangles.transpose(1, 0, 2)
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    some = part.triangles[np.argsort(-areas, kind="stable")[:CHOOSING]]
+    largest = np.argsort(-doubled_areas(part.triangles), kind="stable")[:CHOOSING]
+    some = part.triangles[largest]
     whole, best = part_of(some), 0.0
     plane: tuple[Array, float] | None = None
     for way in axes_of(part.corners) if whole.volume > 0 else []:
@@ -110,9 +100,7 @@ def clipped(triangles: Array, way: Array, at: float) -> tuple[Array, Array]:
 
 def rounded(points: Array) -> tuple[Array, npt.NDArray[np.intp], float]:
     """Some of the points, the faces of their hull, and the radius that contains all."""
-    try:
-        ConvexHull(points)
-    except (QhullError, ValueError):
+    if hull_of(points) is None:
         # In a plane, on a line, or one point: as thick as need be.
         ways = THICKNESS * np.concatenate([np.eye(3), -np.eye(3)])
         points = (points[:, None] + ways).reshape(-1, 3)

@@ -25,7 +25,7 @@ class Solid:
     def __init__(self, triangles: Array) -> None:
         if not np.isfinite(triangles).all():
             raise InvalidModelError("a corner of a triangle is not finite")
-        if not np.cross(*(triangles[:, 1:] - triangles[:, :1]).transpose(1, 0, 2)).any():
+        if not doubled_areas(triangles).any():
             raise InvalidModelError("the triangles have no area")
         self.triangles = triangles
         corners = triangles.reshape(-1, 3)
@@ -75,11 +75,16 @@ def halved(triangles: Array, longest: float) -> Array:
     return np.concatenate(done)
 
 
+def doubled_areas(triangles: Array) -> Array:
+    a, b, c = triangles.transpose(1, 0, 2)
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1))
+
+
 def spread_over(triangles: Array, count: int) -> Array:
     """Points spread uniformly over triangles."""
     rng = np.random.default_rng(0)
     a, b, c = triangles.transpose(1, 0, 2)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    area = doubled_areas(triangles)
     chosen = rng.choice(len(area), count, p=area / area.sum())
     u, v = np.sqrt(rng.uniform(size=count))[:, None], rng.uniform(size=count)[:, None]
     return np.asarray(a[chosen] * (1 - u) + b[chosen] * u * (1 - v) + c[chosen] * u * v)

@@ -14,8 +14,7 @@ from scipy.spatial import ConvexHull  # type: ignore[import-untyped]
 from irbkin._core import Robot, _urdf_links, _urdf_text
 from irbkin._fit.solid import Array
 from irbkin._mesh_files import triangles
-from irbkin._urdf_elements import attribute_of, mesh_path, numbers_of, origin_of
-from irbkin._urdf_joints import fix
+from irbkin._urdf import attribute_of, fix, mesh_path, numbers_of, origin_of
 from irbkin.errors import InvalidModelError, IrbkinError
 
 # Sides of the prism around a cylinder.

@@ -7,9 +7,8 @@ import os
 import numpy as np
 
 from irbkin._core import Robot
-from irbkin._robotstudio.containers import documents
-from irbkin._robotstudio.mechanisms import chosen, robot_of_arm
-from irbkin._robotstudio.pim import mechanisms_of
+from irbkin._robotstudio.elements import documents
+from irbkin._robotstudio.mechanisms import chosen, mechanisms_of, robot_of_arm
 from irbkin.errors import InvalidModelError, IrbkinError
 
 

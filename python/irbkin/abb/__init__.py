@@ -10,8 +10,7 @@ docs/guide/backup.md has an example.
 from irbkin.abb.backinfo import BackInfo, parse_backinfo
 from irbkin.abb.backup import Backup, Controller, task_files
 from irbkin.abb.cfg import CfgFile, Instance, parse_cfg
-from irbkin.abb.changes import Change
-from irbkin.abb.differences import Difference, TargetChange, diff
+from irbkin.abb.differences import Change, Difference, TargetChange, diff
 from irbkin.abb.findings import Finding
 from irbkin.abb.load import load_backup
 from irbkin.abb.programs import TaskModule

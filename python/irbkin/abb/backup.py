@@ -1,4 +1,4 @@
-"""A controller's backup as one record."""
+"""A controller's backup as one record, and its units as a check of RAPID takes them."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -17,13 +17,16 @@ from irbkin.abb.carriers import carriers_of
 from irbkin.abb.findings import Finding
 from irbkin.abb.folders import Folder
 from irbkin.abb.tasks import Task
-from irbkin.abb.units import ExternalUnit, Pose, RobotUnit
+from irbkin.abb.units import AXES, ExternalUnit, Pose, RobotUnit
 from irbkin.errors import InvalidModelError
 from irbkin.rapid import Program
 from irbkin.rapid.program import ModuleFile, program_of
 
 ControllerKind = Literal["S4C+", "IRC5", "OmniCore"]
 NO_AXES = (NOT_THERE,) * 6
+UnitRow = tuple[str, bool, bool, list[tuple[int, Pose, bool]]]
+"""Name, whether it carries the robot, whether its axes are determined, and its axes: the external
+axis from 0, its frame seen from the axis before it [m], and whether it turns."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +69,8 @@ class Backup:
     """Findings on what is not determined, missing or broken, once for each unit or file."""
     checksums: Mapping[str, str] = field(default_factory=dict)
     """OmniCore: base64 of BACKINFO/checksum.txt by path in the backup, in lower case, with `/`."""
+    signals: Mapping[str, str] = field(default_factory=dict)
+    """Types of the signals of EIO.cfg, "DI" to "GO", by name; none if it cannot be read whole."""
     _folder: Folder | None = None
 
     def __repr__(self) -> str:
@@ -201,3 +206,38 @@ def task_files(backup: Backup, task: Task | str) -> tuple[Path, ...]:
     """Return the files of a task's modules, in the order of `Task.modules`."""
     of = backup.task(task) if isinstance(task, str) else task
     return tuple(module.path for module in of.modules)
+
+
+def unit_rows(backup: Backup, robot: str) -> list[UnitRow]:
+    """Return the external units of a backup for a robot of it."""
+    carrier = backup.robots[robot].carried_by
+    rows = []
+    for unit in backup.units.values():
+        row = _unit_row(backup, unit, is_carrier=False)
+        rows.append(row)
+        # Work objects name the mechanical unit.
+        if unit.mechanical_unit:
+            rows.append((unit.mechanical_unit, *row[1:]))
+    if carrier is not None:
+        own_unit = backup.unit(carrier)
+        own: UnitRow = (carrier, True, False, [])
+        if isinstance(own_unit, ExternalUnit):
+            own = _unit_row(backup, own_unit, is_carrier=True)
+        rows = [own, *(row for row in rows if row[0] != own[0])]
+    return rows
+
+
+def _unit_row(backup: Backup, unit: ExternalUnit, *, is_carrier: bool) -> UnitRow:
+    """Return a unit with the axes of the units that carry it before its own."""
+    carriers, _ = carriers_of(unit, backup.unit)
+    chain = [*reversed(carriers), unit]
+    axes: list[tuple[int, Pose, bool]] = []
+    before = np.eye(4)
+    for part in chain:
+        base = np.eye(4) if part.base is None else part.base
+        for eax in (axis.eax for axis in part.axes if axis.eax is not None):
+            is_rotation = part.kind == "positioner"
+            axes.append((AXES.index(eax), np.linalg.inv(before) @ base, is_rotation))
+            before = base
+    is_determined = all(part.is_determined for part in chain)
+    return unit.name, is_carrier, is_determined, axes

@@ -1,16 +1,78 @@
-"""The files of a backup by name without case; texts in the encodings of controllers."""
+"""The files of a backup: where it begins, above or below a path that a user gives; archives (.zip,
+.rspag) in temporary folders; names without case, and texts in the encodings of controllers.
+"""
 
+import os
 import re
+import shutil
+import tempfile
+import weakref
+import zipfile
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-from irbkin._files import is_plain
-from irbkin.abb.archives import Unpacked
+from irbkin._files import is_plain, ways
+from irbkin._words import listed
 from irbkin.abb.findings import Finding
+from irbkin.errors import IrbkinError
 from irbkin.rapid.program import ENDINGS, ModuleFile
 
 TASK = re.compile(r"TASK(\d{1,6})", re.IGNORECASE)
+ARCHIVE_ENDINGS = (".zip", ".rspag")
+READ_ENDINGS = (*ENDINGS, ".pgf", ".cfg", ".txt", ".xml")
+MOST_BYTES = 2**30
+"""Bytes that are unpacked of an archive: one that has more is no backup."""
+PARTS = ("BACKINFO", "RAPID", "SYSPAR")
+"""The folders of a backup beside HOME."""
+MOST_FOLDERS = 20_000
+"""Folders that are searched below a path for a backup."""
+
+
+class Unpacked:
+    """A folder for the files of an archive; removed with the last reference."""
+
+    def __init__(self) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="irbkin-backup-"))
+        weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
+
+
+def archive_of(path: Path) -> Path | None:
+    """Return the archive that a path is, or leads into."""
+    files = (it for it in (path, *path.parents) if it.suffix.lower() in ARCHIVE_ENDINGS)
+    return next((it for it in files if it.is_file()), None)
+
+
+def unpacked_of(archive: Path) -> Unpacked:
+    """Unpack the files of an archive that a backup is read from."""
+    unpacked = Unpacked()
+    try:
+        with zipfile.ZipFile(archive) as opened:
+            left = MOST_BYTES
+            for member in opened.infolist():
+                left -= _unpack(opened, member, unpacked.folder, left)
+    except Exception as error:
+        # Of a broken archive, zipfile raises errors of many kinds.
+        raise IrbkinError(f"{archive}: cannot be unpacked: {error}") from error
+    return unpacked
+
+
+def _unpack(opened: zipfile.ZipFile, member: zipfile.ZipInfo, folder: Path, left: int) -> int:
+    parts = PurePosixPath(member.filename.replace("\\", "/")).parts
+    if not parts or ".." in parts or parts[0].endswith((":", "/")):
+        return 0
+    path = folder.joinpath(*parts)
+    inside = path if member.is_dir() else path.parent
+    inside.mkdir(parents=True, exist_ok=True)
+    if member.is_dir() or not path.name.lower().endswith(READ_ENDINGS):
+        return 0
+    with opened.open(member) as file:
+        content = file.read(left + 1)
+    if len(content) > left:
+        raise ValueError(f"it has more than {MOST_BYTES} bytes of text")
+    path.write_bytes(content)
+    return len(content)
 
 
 def decoded(content: bytes) -> str:
@@ -30,11 +92,7 @@ class Folder:
     unpacked: Unpacked | None = None
     """Where an archive was unpacked; it lives as long as this record."""
     findings: list[Finding] = field(default_factory=list)
-    _inside: Path = field(init=False)
     _entries: dict[Path, dict[str, Path]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        self._inside = self.root.resolve()
 
     def shown(self, path: Path) -> str:
         """Return a path relative to the root, with `/`."""
@@ -77,7 +135,7 @@ class Folder:
 
     def _is_inside(self, path: Path) -> bool:
         try:
-            return path.resolve().is_relative_to(self._inside)
+            return path.resolve().is_relative_to(self.root.resolve())
         except (OSError, RuntimeError):
             # A circle of links.
             return False
@@ -119,3 +177,97 @@ class Folder:
             for name, path in self.entries(folder).items()
             if name.endswith(ENDINGS) and path.is_file()
         ]
+
+
+def open_backup(path: Path) -> Folder:
+    """Find the backup of a path: its folder, a folder or file in it, one above it, or an archive.
+
+    Raises:
+        IrbkinError: There is none, or there are several; the message lists them.
+    """
+    archive = archive_of(path)
+    if archive is not None:
+        unpacked = unpacked_of(archive)
+        start = unpacked.folder / path.relative_to(archive)
+        root = _root(start, archive, unpacked.folder)
+        return Folder(root, archive / root.relative_to(unpacked.folder), unpacked)
+    if not path.exists():
+        raise IrbkinError(f"{path}: no such file or folder")
+    root = _root(path, None, None)
+    return Folder(root, root)
+
+
+def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
+    def shown(path: Path) -> str:
+        return str(path if unpacked is None else archive / path.relative_to(unpacked))  # type: ignore[operator]
+
+    if start.is_file():
+        start = start.parent
+    if _parts(start):
+        return start
+    # Not above an archive, and not the root of the file system.
+    above = [it for way in ways(start) for it in way.parents[:4]]
+    for folder in above:
+        if (unpacked is None or folder.is_relative_to(unpacked)) and _parts(folder) > 1:
+            return folder
+    if _has_cfg(start):
+        return start
+    whole, half = _below(start)
+    found = whole or half
+    if not found:
+        wanted = "BACKINFO, RAPID or SYSPAR"
+        raise IrbkinError(f"{shown(start)}: is no backup of a controller, it has no {wanted}")
+    if len(found) > 1:
+        names = listed(map(shown, found))
+        raise IrbkinError(f"{shown(start)}: has {len(found)} backups, give one: {names}")
+    return found[0]
+
+
+def backup_above(path: Path) -> Path | None:
+    """Return the root of the backup that a path is or is in; None if it is in no backup."""
+    own = (it for way in ways(path) for it in (way, *way.parents[:5]))
+    return next((it for it in own if _parts(it) > 1), None)
+
+
+def backups_of(path: Path) -> list[Path]:
+    """Return the backup that a file or folder is or is in, else those below it."""
+    above = backup_above(path)
+    return [above] if above else _below(path)[0] if path.is_dir() else []
+
+
+def _inside(folder: Path) -> list[os.DirEntry[str]]:
+    """Return what is in a folder, sorted by name; nothing where it cannot be listed."""
+    try:
+        with os.scandir(folder) as entries:
+            return sorted(entries, key=lambda entry: entry.name)
+    except OSError:
+        return []
+
+
+def _parts(folder: Path) -> int:
+    """Return how many of the folders of a backup a folder has."""
+    names = {entry.name.upper() for entry in _inside(folder) if entry.is_dir()}
+    return len(names.intersection(PARTS))
+
+
+def _has_cfg(folder: Path) -> bool:
+    return any(entry.name.lower() in ("moc.cfg", "sys.cfg") for entry in _inside(folder))
+
+
+def _below(start: Path) -> tuple[list[Path], list[Path]]:
+    """Return whole backups below a folder, and halves; not behind links, nor in HOME of another."""
+    whole, half = [], []
+    queue = deque([start])
+    for _ in range(MOST_FOLDERS):
+        if not queue:
+            break
+        folder = queue.popleft()
+        parts = _parts(folder)
+        if parts > 1:
+            whole.append(folder)
+            continue
+        if parts or (_has_cfg(folder) and folder.name.upper() != "SYSPAR"):
+            half.append(folder)
+        inside = _inside(folder)
+        queue.extend(Path(it.path) for it in inside if it.is_dir(follow_symlinks=False))
+    return whole, half

@@ -1,8 +1,9 @@
 """`load_backup`: the files of a backup, read and related to each other."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import zip_longest
 from os import PathLike
 from pathlib import Path
 from typing import Literal
@@ -14,14 +15,16 @@ from irbkin.abb.backup import Backup, Controller, ControllerKind
 from irbkin.abb.carriers import Machine
 from irbkin.abb.cfg import CfgFile, lines_of, parse_cfg
 from irbkin.abb.findings import Finding, limited
-from irbkin.abb.folders import Folder
+from irbkin.abb.folders import Folder, open_backup
 from irbkin.abb.machine import read_machine
-from irbkin.abb.roots import open_backup
 from irbkin.abb.tasks import Task, TaskReader
 from irbkin.abb.units import RobotUnit
 
 GENERATIONS: dict[int, ControllerKind] = {4: "S4C+", 5: "IRC5", 6: "IRC5", 7: "OmniCore"}
 """Controllers by the first number of their files' version, which is RobotWare's."""
+SIGNALS = ("DI", "DO", "AI", "AO", "GI", "GO")
+OF_CONTROLLER = re.compile(r"[A-Z0-9]+")
+"""Names as of signals of the controller's own boards, such as DRV1BRAKE: no file has them."""
 
 
 def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = None) -> Backup:
@@ -43,6 +46,7 @@ def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = No
     folder = open_backup(Path(path).absolute())
     moc = parse_cfg(*folder.text("SYSPAR/MOC.cfg", "MOC.cfg"))
     sys = parse_cfg(*folder.text("SYSPAR/SYS.cfg", "SYS.cfg"))
+    eio = parse_cfg(*folder.text("SYSPAR/EIO.cfg", "EIO.cfg"))
     info = parse_backinfo(*folder.text("BACKINFO/backinfo.txt", "backinfo.txt"))
     machine = read_machine(moc, info.arms) if moc.file else _by_wording(info)
     reader = TaskReader(folder, sys, moc, info, machine)
@@ -53,10 +57,13 @@ def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = No
         *_missing(moc, sys, info, machine, tasks),
         *moc.findings,
         *sys.findings,
+        *eio.findings,
+        *(() if eio.findings else cross_findings(eio)),
         *info.findings,
         *machine.findings,
         *_undetermined(machine, moc.file),
         *reader.findings,
+        *_home_differences(folder, sys, tasks),
         # Reading finds links and files that cannot be read.
         *folder.findings,
     ]
@@ -69,6 +76,7 @@ def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = No
         tasks,
         limited(findings),
         checksums,
+        {} if eio.findings else signals_of(eio),
         folder,
     )
 
@@ -144,6 +152,29 @@ def _missing(
     return [Finding("", 0, "file-missing", severity, message) for severity, message in found]
 
 
+def _home_differences(folder: Folder, sys: CfgFile, tasks: Iterable[Task]) -> Iterator[Finding]:
+    """Yield the files of modules, where SYS.cfg loads them from HOME or directly in it, that have
+    another text than every task has loaded.
+    """
+    names = [it.text("File").replace("\\", "/") for it in sys.of("CAB_TASK_MODULES")]
+    of_home = [name[5:] for name in names if name.upper().startswith("HOME:")]
+    places = {name.rsplit("/", 1)[-1].lower(): name for name in of_home}
+    loaded: dict[str, list[str]] = {}
+    for own in (it for task in tasks for it in task.modules if it.kind != "configured"):
+        name = own.path.name
+        file = folder.find(f"HOME/{places.get(name.lower(), name)}")
+        if file is not None and file.is_file():
+            loaded.setdefault(folder.shown(file), []).append(own.file)
+    for name, files in loaded.items():
+        contents = (lines_of(folder.text(it)[0].rstrip()) for it in (name, *files))
+        text, *others = ([line.rstrip() for line in lines] for lines in contents)
+        if text not in others:
+            pairs = enumerate(zip_longest(text, others[0]), 1)
+            line = next(number for number, (one, other) in pairs if one != other)
+            message = f"differs from {files[0]}, which was loaded, in line {line} first"
+            yield Finding(name, min(line, len(text)), "home-differs", "note", message)
+
+
 def _controller(moc: CfgFile, sys: CfgFile, info: BackInfo, machine: Machine) -> Controller:
     version = moc.version or sys.version
     numbers = [re.match(r"\d{1,4}", it) for it in (version, info.robotware)]
@@ -161,3 +192,22 @@ def _checksums(folder: Folder) -> dict[str, str]:
     lines = lines[1:] if lines and lines[0].startswith("ver:") else lines
     names = [line.replace("\\", "/").lower().lstrip("./") for line in lines[::2]]
     return dict(zip(names, lines[1::2], strict=False))
+
+
+def signals_of(cfg: CfgFile) -> dict[str, str]:
+    """Return the type of each signal, "DI" to "GO", by its name as EIO.cfg has it."""
+    rows = ((it.name, it.text("SignalType").upper()) for it in cfg.of("EIO_SIGNAL"))
+    return {name: kind for name, kind in rows if name and kind in SIGNALS}
+
+
+def cross_findings(cfg: CfgFile) -> Iterator[Finding]:
+    """Yield the actors and resultants of cross connections that are no signals."""
+    names = {"", *(it.name.lower() for it in cfg.of("EIO_SIGNAL"))}
+    for it in cfg.of("EIO_CROSS"):
+        for key, name in it.values.items():
+            is_known = name.lower() in names or OF_CONTROLLER.fullmatch(name)
+            if re.fullmatch(r"res|act\d+", key) and not is_known:
+                message = (
+                    f"cross connection {it.name}: {name} of its -{key} is no signal of EIO.cfg"
+                )
+                yield Finding(cfg.file, it.line, "cross-signal", "warning", message)

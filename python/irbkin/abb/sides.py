@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from irbkin import Robot
-from irbkin.abb.external import UnitRow
+from irbkin.abb.backup import UnitRow
 from irbkin.rapid import CheckedMove, Program
 
 UNMET = ("R101", "R102")
@@ -68,7 +68,7 @@ class Side:
             for it in (own for own in module.declarations if own.data_type in types):
                 scope = f"{it.routine}." if it.routine else ""
                 is_local = it.scope == "LOCAL" or it.routine is not None
-                for name, value in _elements(f"{scope}{it.name}", it.value):
+                for name, value in elements(f"{scope}{it.name}", it.value):
                     place = (module.name or "", name, file.path, it.line)
                     own = Declared(*place, it.data_type, is_local, value)
                     found[own.module.lower(), name.lower()] = own
@@ -122,9 +122,10 @@ def _written(lines: Sequence[str], place: Place, it: Any) -> tuple[str, dict[str
     return "".join(it.target.text.split()), fields
 
 
-def _elements(name: str, value: Any, index: tuple[int, ...] = ()) -> Iterator[tuple[str, Any]]:
+def elements(name: str, value: Any, index: tuple[int, ...] = ()) -> Iterator[tuple[str, Any]]:
+    """Yield the elements of an array of any shape with their names, or a value; nothing of None."""
     if isinstance(value, list):
         for number, element in enumerate(value, 1):
-            yield from _elements(name, element, (*index, number))
+            yield from elements(name, element, (*index, number))
     elif value is not None:
         yield (f"{name}{{{','.join(map(str, index))}}}" if index else name), value

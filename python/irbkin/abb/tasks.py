@@ -14,8 +14,7 @@ from irbkin.abb.carriers import USES, Machine
 from irbkin.abb.cfg import CfgFile, Instance
 from irbkin.abb.findings import Finding
 from irbkin.abb.folders import Folder
-from irbkin.abb.loads import Loads
-from irbkin.abb.programs import TaskModule, doubled, modules_in
+from irbkin.abb.programs import Loads, TaskModule, doubled, modules_in
 
 
 @dataclass(frozen=True)

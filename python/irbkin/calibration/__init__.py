@@ -5,15 +5,15 @@ a camera, and the calibration of a Universal Robots machine.
 fitted and how is in docs/guide/calibrate.md.
 """
 
-from irbkin.calibration._calibrate import calibrate
-from irbkin.calibration._hand_eye import HandEye, hand_eye, robot_world
-from irbkin.calibration._records import (
+from irbkin.calibration._calibrate import (
     CalibratedParameter,
     Calibration,
     CalibrationResiduals,
     LeftOutParameter,
     Residuals,
+    calibrate,
 )
+from irbkin.calibration._hand_eye import HandEye, hand_eye, robot_world
 from irbkin.calibration._ur import load_ur
 
 __all__ = [

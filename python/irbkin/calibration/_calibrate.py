@@ -1,7 +1,10 @@
-"""`irbkin.calibrate`."""
+"""`irbkin.calibrate`, and the records that it returns."""
+
+from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -9,16 +12,10 @@ import numpy.typing as npt
 from irbkin._arguments import Bar, Report, check_extra, check_robot, reporter
 from irbkin._arrays import Floats
 from irbkin._core import Robot
-from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
-from irbkin.calibration._loss import Loss, check_weights
+from irbkin._equality import by_value
+from irbkin.calibration import _fit, _measurements, _parameters, _start
+from irbkin.calibration._fit import Loss, check_weights
 from irbkin.calibration._measurements import Measurements
-from irbkin.calibration._records import (
-    CalibratedParameter,
-    Calibration,
-    CalibrationResiduals,
-    LeftOutParameter,
-    Residuals,
-)
 from irbkin.errors import CalibrationError
 
 FITS = ("base", "table", "tool")
@@ -33,6 +30,159 @@ FAR_LENGTH = 0.02
 ALIGNMENTS, TYPICAL, LEAST_ALIGNED = 10, 3.0, 4
 # Joint vectors all over the joint space, by which parameters are told from one another [1].
 EVERYWHERE = 100
+MILLI = 1e3
+STAGES = ("before", "base and tool", "after", "cross-validated")
+
+
+class CalibratedParameter(NamedTuple):
+    """One fitted parameter."""
+
+    name: str
+    """Such as "alpha 2", "base x" or "tool rz"."""
+    unit: str
+    """"m" or "rad"."""
+    nominal: float
+    """Value before; of base, tool and beta zero."""
+    fitted: float
+    """Value after."""
+    standard_error: float
+    """Standard deviation of the fitted value, as the scatter of the residuals has it."""
+
+    @property
+    def correction(self) -> float:
+        """Fitted minus nominal value."""
+        return self.fitted - self.nominal
+
+
+class LeftOutParameter(NamedTuple):
+    """A parameter that is not fitted."""
+
+    name: str
+    """As of `CalibratedParameter`."""
+    reason: str
+    """Which fitted parameters do the same, or why the measurements do not show it."""
+
+
+class Residuals(NamedTuple):
+    """Distances of the arm's tool from the measurements."""
+
+    position_rms: float
+    """Root mean square of the distances [m]."""
+    position_worst: float
+    """Largest distance [m]."""
+    rotation_rms: float
+    """Root mean square of the angles [rad]; NaN where positions were measured."""
+    rotation_worst: float
+    """Largest angle [rad]; NaN where positions were measured."""
+
+    @classmethod
+    def of(cls, position: Floats, rotation: Floats) -> Residuals:
+        """Summary of the distances and angles of poses, shapes (m,)."""
+        figures = []
+        for values in (position, rotation):
+            known = values if len(values) else np.full(1, np.nan)
+            figures += [float(np.sqrt(np.mean(np.square(known)))), float(known.max())]
+        return cls(*figures)
+
+
+class CalibrationResiduals(NamedTuple):
+    """Residuals at each stage of a calibration."""
+
+    before: Residuals
+    """Of the robot as it was given."""
+    aligned: Residuals
+    """With only base and tool fitted, as far as they are fitted at all."""
+    after: Residuals
+    """Of the calibrated robot."""
+    cross_validated: Residuals | None
+    """Of poses that did not take part in the fit, each once; None without folds, or if the other
+    poses are too few for the parameters.
+    """
+
+
+@by_value
+class Calibration(NamedTuple):
+    """A calibrated robot, and how good it is. `print(calibration)` shows a table."""
+
+    robot: Robot
+    nominal: Robot
+    """The robot that the corrections are added to: the one given or, if its base or tool was far
+    off, that with both aligned first.
+    """
+    parameters: tuple[CalibratedParameter, ...]
+    left_out: tuple[LeftOutParameter, ...]
+    """Parameters that the measurements do not determine."""
+    residuals: CalibrationResiduals
+    """Distances from the measurements, before and after."""
+    position_error: Floats
+    """Distance of each pose from its measurement after the fit [m], shape (m,)."""
+    rotation_error: Floats
+    """These angles [rad], shape (m,); (0,) where positions were measured."""
+    condition: float
+    """Condition number of the Jacobian in the fitted parameters, its columns scaled to one."""
+    q: Floats
+    """Joint angles at each measurement [rad], shape (m, n)."""
+    measured: Floats
+    """Measured positions [m], shape (m, 3)."""
+
+    @property
+    def fitted(self) -> Floats:
+        """Positions of the calibrated robot's tool at these joint angles [m], shape (m, 3)."""
+        return self.robot.fk(self.q)[:, :3, 3]
+
+    @property
+    def identifiable(self) -> tuple[str, ...]:
+        """Names of the fitted parameters."""
+        return tuple(parameter.name for parameter in self.parameters)
+
+    @property
+    def corrections(self) -> Floats:
+        """Corrections for `nominal.with_corrections`, shape (12 + 5 n,)."""
+        index = {name: i for i, name in enumerate(_parameters.names(self.nominal.dof))}
+        corrections = np.zeros(len(index))
+        for parameter in self.parameters:
+            corrections[index[parameter.name]] = parameter.correction
+        return corrections
+
+    def __repr__(self) -> str:
+        """The outcome in a line."""
+        before, after = self.residuals.aligned, self.residuals.after
+        return (
+            f"<Calibration of {self.robot.name or 'a robot'}: {len(self.parameters)} parameters "
+            f"from {len(self.position_error)} measurements, rms {_length(before.position_rms)} "
+            f"mm before, {_length(after.position_rms)} mm after>"
+        )
+
+    def __str__(self) -> str:
+        """Residuals at each stage, then the parameters, in mm and mrad."""
+        lines = [
+            f"{self.robot.name or 'robot'}: {len(self.parameters)} parameters from "
+            f"{len(self.position_error)} measurements",
+            f"{'':15}  {'position [mm]':^19}  {'rotation [mrad]':^19}".rstrip(),
+            f"{'':15}  {'rms':>9} {'worst':>9}  {'rms':>9} {'worst':>9}",
+        ]
+        for name, residuals in zip(STAGES, self.residuals, strict=True):
+            if residuals is not None:
+                figures = [_length(figure) for figure in residuals]
+                lines.append(
+                    f"{name:15}  {figures[0]:>9} {figures[1]:>9}  {figures[2]:>9} {figures[3]:>9}"
+                )
+            else:
+                lines.append(f"{name}: none, no folds or too few measurements")
+        lines.append(f"{'parameter':15}  {'correction':>12}  {'standard error':>14}")
+        for each in self.parameters:
+            unit = "mm" if each.unit == "m" else "mrad"
+            lines.append(
+                f"{each.name:15}  {each.correction * MILLI:12.4f}  "
+                f"{each.standard_error * MILLI:14.4f} {unit}"
+            )
+        lines += [f"left out: {each.name}, {each.reason}" for each in self.left_out]
+        return "\n".join(lines)
+
+
+def _length(meters: float) -> str:
+    """A length in mm, or an angle in mrad, with three digits at least."""
+    return "-" if np.isnan(meters) else f"{meters * MILLI:.4f}"
 
 
 def calibrate(
@@ -89,25 +239,26 @@ def calibrate(
     wanted = _check_fit(robot, fit, position_std, rotation_std, loss)
     if folds < 0 or folds == 1:
         raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
-    has_table = bool(wanted & {"table", *_parameters.of_table(robot.dof)})
     measurements = _measurements.read(robot, q, measured)
     problem = _fit.Problem(robot, measurements, position_std, rotation_std, loss)
     tiers = _parameters.tiers(robot, wanted)
-    moved = _everywhere(problem, np.zeros(len(_parameters.names(robot.dof))))
-    needed = len(_identify.chosen(moved, tiers, _identify.INDEPENDENT))
+    none = np.zeros(len(_parameters.names(robot.dof)))
+    moved = _everywhere(problem, none)
+    needed = len(_parameters.chosen(moved, tiers, _parameters.INDEPENDENT))
     _measurements.check_poses(measurements, "table" in wanted, needed)
 
     problem = _aligned(problem, wanted)
-    none = np.zeros(len(_parameters.names(robot.dof)))
-    ends = _parameters.ends(tiers[0], robot.dof)
-    ends = ends and _identify.chosen(problem.jacobian(none), [ends], _identify.DETERMINED)
+    table = _parameters.table(robot.dof)
+    ends = [index for index in tiers[0] if index not in table]
+    ends = ends and _parameters.chosen(problem.jacobian(none), [ends], _parameters.DETERMINED)
     start = _fit.fit(problem, ends, none) if ends else none
     _check_near(problem, start)
     report(1, 2 + folds)
     jacobian = problem.jacobian(start)
-    kept = _identify.chosen(jacobian, tiers, _identify.DETERMINED)
+    kept = _parameters.chosen(jacobian, tiers, _parameters.DETERMINED)
     if not kept:
         raise CalibrationError("measured determines no parameter: move the joints farther")
+    has_table = any(index in table for index in kept)
     corrections = _fit.fit(problem, kept, start) if has_table else start
     report(2, 2 + folds)
     held_out = _cross_validated(problem, kept, corrections, folds, report)
@@ -146,8 +297,8 @@ def _bound(problem: _fit.Problem) -> float:
 
 
 def _residuals(robot: Robot, measurements: Measurements) -> tuple[Residuals, Floats, Floats]:
-    position, rotation = _fit.errors_of(robot.fk(measurements.q), measurements)
-    distance, angle = np.linalg.norm(position, axis=1), np.linalg.norm(rotation, axis=1)
+    errors = _fit.errors_of(robot.fk(measurements.q), measurements.position, measurements.rotation)
+    distance, angle = (np.linalg.norm(it, axis=1) for it in errors)
     if measurements.rotation is None:
         angle = np.zeros(0)
     return Residuals.of(distance, angle), distance, angle
@@ -237,7 +388,7 @@ def _calibration(
             for index, error in zip(kept, errors, strict=True)
         ),
         left_out=tuple(
-            LeftOutParameter(names[index], _identify.reason(jacobian, moved, kept, index, names))
+            LeftOutParameter(names[index], _parameters.reason(jacobian, moved, kept, index, names))
             for index in left_out
         ),
         residuals=CalibrationResiduals(
@@ -248,7 +399,7 @@ def _calibration(
         ),
         position_error=distance,
         rotation_error=angle,
-        condition=_identify.condition(jacobian[:, kept]),
+        condition=_parameters.condition(jacobian[:, kept]),
         q=measurements.q,
         measured=measurements.position,
     )

@@ -1,21 +1,44 @@
-"""Nonlinear least squares over corrections of an arm, and the spread of what they give."""
+"""Nonlinear least squares over corrections of an arm, with losses that outliers do not lead astray,
+and the spread of what they give.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 import numpy as np
 
 from irbkin._arrays import Floats
 from irbkin._core import Robot
-from irbkin.calibration._loss import outlying
 from irbkin.calibration._measurements import Measurements
 from irbkin.errors import CalibrationError
 
+Loss = Literal["linear", "soft_l1", "huber", "cauchy", "arctan"]
+LOSSES = get_args(Loss)
+# Median absolute deviation of a normal distribution to its standard deviation.
+FROM_MEDIAN = 1.4826
+# Part of the scatter from which on a robust loss counts residuals less [1].
+OUTLIER = 3.0
 # Steps within which least squares of corrections converge; the first guess is near.
 MOST_STEPS = 200
 # Relative change of parameters at which they have (the next step would be its square), and of the
 # sum of squares (rounding).
 CONVERGED, SETTLED = 1e-10, 1e-15
+
+
+def check_weights(position_std: float, rotation_std: float, loss: str) -> None:
+    """Refuse a standard deviation that is not positive and finite, and an unknown loss."""
+    for name, value in (("position_std", position_std), ("rotation_std", rotation_std)):
+        if not 0.0 < value < np.inf:
+            raise ValueError(f"{name} is {value}, it must be positive and finite")
+    if loss not in LOSSES:
+        raise ValueError(f'loss must be one of {", ".join(LOSSES)}, got "{loss}"')
+
+
+def outlying(residuals: Floats) -> float:
+    """Residual from which on one counts less: the scatter without outliers measures it."""
+    scatter = FROM_MEDIAN * float(np.median(np.abs(residuals)))
+    return max(OUTLIER * scatter, np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -33,7 +56,7 @@ class Problem:
         measured orientation to the arm's [rad], each of shape (m, 3) (eq. 14).
         """
         poses = self.robot._corrected_fk(self.measurements.q, corrections)
-        return errors_of(poses, self.measurements)
+        return errors_of(poses, self.measurements.position, self.measurements.rotation)
 
     def residuals(self, corrections: Floats) -> Floats:
         """Errors as parts of their standard deviations, shape (k,) (eq. 15)."""
@@ -53,12 +76,12 @@ class Problem:
         return rows.reshape(-1, rows.shape[-1])
 
 
-def errors_of(poses: Floats, measurements: Measurements) -> tuple[Floats, Floats]:
+def errors_of(poses: Floats, position: Floats, rotation: Floats | None) -> tuple[Floats, Floats]:
     """As `Problem.errors`, of poses; rotation vectors of shape (m, 0) of measured positions."""
-    position = poses[:, :3, 3] - measurements.position
-    if measurements.rotation is None:
-        return position, np.zeros((len(poses), 0))
-    return position, rotation_vectors(poses[:, :3, :3] @ measurements.rotation.swapaxes(1, 2))
+    shift = poses[:, :3, 3] - position
+    if rotation is None:
+        return shift, np.zeros((len(poses), 0))
+    return shift, rotation_vectors(poses[:, :3, :3] @ rotation.swapaxes(1, 2))
 
 
 def rotation_vectors(rotations: Floats) -> Floats:

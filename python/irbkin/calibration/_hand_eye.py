@@ -9,8 +9,7 @@ import numpy.typing as npt
 from irbkin._arguments import check_extra
 from irbkin._arrays import Floats
 from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
-from irbkin.calibration._fit import rotation_vectors
-from irbkin.calibration._loss import Loss, check_weights, outlying
+from irbkin.calibration._fit import Loss, check_weights, errors_of, outlying, rotation_vectors
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import fit_shift, nearest_rotation, turns
 from irbkin.errors import CalibrationError
@@ -126,8 +125,14 @@ def robot_world(
 def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
     check_extra("hand-eye calibration", "calibrate", "scipy")
     first, second = read_poses(a, "a"), read_poses(b, "b")
-    _check_meters(first[:, :3, 3], "a")
-    _check_meters(second[:, :3, 3], "b")
+    for poses, name in ((first, "a"), (second, "b")):
+        # Farther than an arm reaches.
+        largest = float(np.abs(poses[:, :3, 3]).max())
+        if largest > FARTHEST:
+            raise CalibrationError(
+                f"{name} has a coordinate of {largest:g} m, its size must be at most {FARTHEST:g} "
+                "m (did you pass millimeters?)"
+            )
     if len(first) != len(second):
         raise CalibrationError(f"a has {len(first)} poses and b {len(second)}: give pairs")
     if len(first) < least:
@@ -146,16 +151,6 @@ def _check_turns(rotations: Floats, name: str) -> None:
         )
 
 
-def _check_meters(positions: Floats, name: str) -> None:
-    """Refuse positions that are farther than an arm reaches."""
-    largest = float(np.abs(positions).max())
-    if largest > FARTHEST:
-        raise CalibrationError(
-            f"{name} has a coordinate of {largest:g} m, its size must be at most {FARTHEST:g} m "
-            "(did you pass millimeters?)"
-        )
-
-
 def _check_near(distance: float, angle: float, positions: Floats) -> None:
     """Refuse pairs of which half are farther off than any measurement."""
     bound = max(FAR_PART * float(np.linalg.norm(np.ptp(positions, axis=0))), FAR_LENGTH)
@@ -164,12 +159,6 @@ def _check_near(distance: float, angle: float, positions: Floats) -> None:
             f"a and b do not fit: half are {distance:.2g} m and {angle:.2g} rad off, at most "
             f"{bound:.2g} m and {FAR_ANGLE} rad is taken (is one inverted, swapped or mirrored?)"
         )
-
-
-def _differences(left: Floats, right: Floats) -> tuple[Floats, Floats]:
-    """Vectors [m] and rotation vectors [rad] from the right poses to the left ones."""
-    turned = left[:, :3, :3] @ np.swapaxes(right[:, :3, :3], 1, 2)
-    return left[:, :3, 3] - right[:, :3, 3], rotation_vectors(turned)
 
 
 def _refined(
@@ -193,7 +182,8 @@ def _refined(
         return moved
 
     def residuals(values: Floats) -> Floats:
-        shift, turn = _differences(*sides(*frames(values)))
+        left, right = sides(*frames(values))
+        shift, turn = errors_of(left, right[:, :3, 3], right[:, :3, :3])
         return np.concatenate([shift / position_std, turn / rotation_std], axis=1).ravel()
 
     values = np.zeros(6 * len(start))
@@ -204,7 +194,9 @@ def _refined(
         ).x
     found = frames(values)
     left, right = sides(*found)
-    shift, turn = (np.linalg.norm(it, axis=1) for it in _differences(left, right))
-    _check_near(float(np.median(shift)), float(np.median(turn)), right[:, :3, 3])
+    measured = right[:, :3, 3]
+    errors = errors_of(left, measured, right[:, :3, :3])
+    shift, turn = (np.linalg.norm(it, axis=1) for it in errors)
+    _check_near(float(np.median(shift)), float(np.median(turn)), measured)
     y = found[1] if len(found) > 1 else None
-    return HandEye(found[0], y, shift, turn, right[:, :3, 3], left[:, :3, 3])
+    return HandEye(found[0], y, shift, turn, measured, left[:, :3, 3])

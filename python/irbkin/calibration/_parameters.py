@@ -1,4 +1,11 @@
-"""The parameters of an arm: names, nominal values, and which of them are fitted first."""
+"""The parameters of an arm: names, nominal values, which of them are fitted first, and which the
+measurements determine: by a QR decomposition with column pivoting, tier by tier.
+
+Reference: Golub and Van Loan, Matrix Computations, 2013, section 5.4; for arms Khalil, Gautier and
+Enguehard, Identifiable Parameters and Optimum Configurations for Robots Calibration, 1991.
+"""
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -13,6 +20,13 @@ LENGTHS = frozenset({"x", "y", "z", "a", "d"})
 # |sin alpha| up to which neighboring axes count as parallel [1]: the offsets d of both axes then
 # move the tool in the same direction to a part of this, and beta takes the place of one of them.
 PARALLEL_SIN = 0.1
+# Part of a column that is not a combination of those chosen, above which it is chosen [1]: less,
+# and its standard error is ten thousand times as large as of a parameter by itself.
+DETERMINED = 1e-4
+# The bound where it can only be rounding: of poses all over the joint space.
+INDEPENDENT = 1e-7
+# Most parameters that a reason names, and their least part of the largest.
+PARTNERS, PARTNER = 3, 0.2
 
 
 def names(dof: int) -> list[str]:
@@ -31,14 +45,9 @@ def nominal(robot: Robot) -> Floats:
     return np.asarray(np.r_[np.zeros(len(FRAME)), rows.ravel(), np.zeros(len(FRAME))])
 
 
-def of_table(dof: int) -> list[str]:
-    return names(dof)[len(FRAME) : -len(FRAME)]
-
-
-def ends(indices: list[int], dof: int) -> list[int]:
-    """The parameters of base and tool among some."""
-    table = range(len(FRAME), len(FRAME) + len(ROW) * dof)
-    return [index for index in indices if index not in table]
+def table(dof: int) -> range:
+    """The parameters of the table, which are between those of base and tool."""
+    return range(len(FRAME), len(FRAME) + len(ROW) * dof)
 
 
 def tiers(robot: Robot, fit: frozenset[str]) -> list[list[int]]:
@@ -69,3 +78,76 @@ def _groups(robot: Robot, fit: frozenset[str]) -> list[list[int]]:
         first += [alpha_, a, theta, beta if parallel else d]
         second.append(d if parallel else beta)
     return [ends, first, second]
+
+
+def chosen(jacobian: Floats, tiers: Sequence[Sequence[int]], least: float) -> list[int]:
+    """Indices of independent columns of a weighted Jacobian, shape (k, p), earlier tiers first;
+    `least` is the part of a column that must be independent.
+    """
+    scaled = _unit_columns(jacobian)
+    basis = np.zeros((len(jacobian), 0))
+    found: list[int] = []
+    for tier in tiers:
+        rest = list(tier)
+        while rest:
+            parts = scaled[:, rest]
+            # Twice: once leaves rounding of the removed part.
+            for _ in range(2):
+                parts = parts - basis @ (basis.T @ parts)
+            sizes = np.linalg.norm(parts, axis=0)
+            largest = int(np.argmax(sizes))
+            if sizes[largest] <= least:
+                break
+            basis = np.column_stack([basis, parts[:, largest] / sizes[largest]])
+            found.append(rest.pop(largest))
+    return sorted(found)
+
+
+def reason(
+    jacobian: Floats, everywhere: Floats, kept: Sequence[int], index: int, names: Sequence[str]
+) -> str:
+    """Why the parameter `index` is left out: by the weighted Jacobians of the measurements and of
+    poses all over the joint space, and the columns that are kept.
+    """
+    if not np.any(everywhere[:, index]):
+        return "which does not move what was measured"
+    if not np.any(jacobian[:, index]):
+        return "which does not move what was measured at these poses"
+    structural, off = _combination(everywhere, kept, index)
+    if off <= INDEPENDENT:
+        return f"which moves the tool as {_listed(structural, kept, names)} in every pose"
+    partners, _ = _combination(jacobian, kept, index)
+    return (
+        f"which these poses do not separate from {_listed(partners, kept, names)}: "
+        "measure at poses that differ more"
+    )
+
+
+def _unit_columns(jacobian: Floats) -> Floats:
+    """The columns scaled to one; those that are zero stay so."""
+    sizes = np.linalg.norm(jacobian, axis=0)
+    return jacobian / np.where(sizes > 0.0, sizes, 1.0)
+
+
+def condition(jacobian: Floats) -> float:
+    """Condition number with columns scaled to one."""
+    values = np.linalg.svd(_unit_columns(jacobian), compute_uv=False)
+    return float(values[0] / values[-1])
+
+
+def _combination(jacobian: Floats, kept: Sequence[int], index: int) -> tuple[Floats, float]:
+    """The combination of kept columns nearest to another one, and its distance."""
+    scaled = _unit_columns(jacobian)
+    solved = np.linalg.lstsq(scaled[:, kept], scaled[:, index], rcond=None)
+    factors = np.asarray(solved[0], dtype=np.float64)
+    return factors, float(np.linalg.norm(scaled[:, kept] @ factors - scaled[:, index]))
+
+
+def _listed(factors: Floats, kept: Sequence[int], names: Sequence[str]) -> str:
+    """The parameters with the largest factors, in words."""
+    sizes = np.abs(factors)
+    order = [i for i in np.argsort(-sizes, kind="stable") if sizes[i] >= PARTNER * sizes.max()]
+    words = [names[kept[i]] for i in order[:PARTNERS]]
+    if len(order) > PARTNERS:
+        return f"{', '.join(words)} and others"
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

@@ -18,11 +18,25 @@ def aligned(robot: Robot, measurements: Measurements, fit: frozenset[str]) -> Ro
     """The robot with a base and a tool that fit its nominal table roughly."""
     flange = robot.with_base(np.eye(4)).with_tool(np.eye(4)).fk(measurements.q)
     base, tool = np.array(robot.base), np.array(robot.tool)
-    if measurements.rotation is None:
-        _by_positions(flange, measurements.position, base, tool, fit)
-    else:
-        _turn(flange[:, :3, :3], measurements.rotation, base[:3, :3], tool[:3, :3], fit)
-        fit_shift(flange, measurements.position, base, tool, fit)
+    # The rotations of Z, X and F_i; the first two are parts of the frames.
+    z, x, f = base[:3, :3], tool[:3, :3], flange[:, :3, :3]
+    measured, rotation = measurements.position, measurements.rotation
+    is_alternating = rotation is None and {"base", "tool"} <= fit
+    for _ in range(ROUNDS if is_alternating else 1):
+        if rotation is None:
+            if "base" in fit:
+                # Least squares of the rotation between two sets of points (eq. 13).
+                points = f @ tool[:3, 3] + flange[:, :3, 3]
+                off = points - points.mean(axis=0)
+                z[:] = nearest_rotation((measured - measured.mean(axis=0)).T @ off)
+        # Of measured rotations (eq. 11).
+        elif "tool" not in fit:
+            z[:] = nearest_rotation(np.einsum("mij,mkj->ik", rotation, f @ x))
+        elif "base" not in fit:
+            x[:] = nearest_rotation(np.einsum("mji,mjk->ik", z @ f, rotation))
+        else:
+            z[:], x[:] = turns(f, rotation)
+        fit_shift(flange, measured, base, tool, fit)
     return robot.with_base(base).with_tool(tool)
 
 
@@ -30,18 +44,6 @@ def nearest_rotation(matrix: Floats) -> Floats:
     left, _, right = np.linalg.svd(matrix)
     sign = np.diag([1.0, 1.0, np.linalg.det(left @ right)])
     return np.asarray(left @ sign @ right)
-
-
-def _turn(
-    flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
-) -> None:
-    """Turn base and tool (eq. 11): both by the null vector of Z^T M_i - F_i X = 0."""
-    if "tool" not in fit:
-        base[:] = nearest_rotation(np.einsum("mij,mkj->ik", measured, flange @ tool))
-    elif "base" not in fit:
-        tool[:] = nearest_rotation(np.einsum("mji,mjk->ik", base @ flange, measured))
-    else:
-        base[:], tool[:] = turns(flange, measured)
 
 
 def turns(flange: Floats, measured: Floats) -> tuple[Floats, Floats]:
@@ -77,15 +79,3 @@ def fit_shift(
         base[:3, 3] = found[:3]
     if "tool" in fit:
         tool[:3, 3] = found[-3:]
-
-
-def _by_positions(
-    flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
-) -> None:
-    """Base and tool point by turns: rotation between two sets of points, least squares (eq. 13)."""
-    for _ in range(ROUNDS if {"base", "tool"} <= fit else 1):
-        if "base" in fit:
-            points = flange[:, :3, :3] @ tool[:3, 3] + flange[:, :3, 3]
-            off = points - points.mean(axis=0)
-            base[:3, :3] = nearest_rotation((measured - measured.mean(axis=0)).T @ off)
-        fit_shift(flange, measured, base, tool, fit)

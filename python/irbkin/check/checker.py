@@ -67,6 +67,8 @@ class Checker:
             "units": job.units,
             "last_values": self._takes_saved or job.is_saved,
             "whole": False if is_unread else job.is_whole,
+            "signals": [*job.signals] or None,
+            "tasks": job.tasks,
         }
         checked = program.check(job.robot, **self._options, **given, carried=self._shapes)
         files = [file.path for file in program.files]

@@ -24,6 +24,8 @@ TOOLS = (
     ("T301", "unset-load", "error", True),
     ("T302", "doubtful-load", "warning", True),
     ("T303", "tool-without-shape", "note", True),
+    ("T304", "load-units", "error", True),
+    ("T305", "load-note", "note", True),
 )
 """Codes of the tools of moves."""
 NOT_CHECKED = ("U801", "U802", "U804")

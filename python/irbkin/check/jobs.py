@@ -1,20 +1,19 @@
 """Programs to check, each with its arm: of files, or of the tasks of a backup."""
 
 import os
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from irbkin import Robot
 from irbkin.abb import Backup, Task, load_backup
-from irbkin.abb.archives import archive_of
-from irbkin.abb.external import UnitRow, unit_rows
-from irbkin.abb.roots import PARTS, backups_of
+from irbkin.abb.backup import UnitRow, unit_rows
+from irbkin.abb.folders import PARTS, archive_of, backups_of
 from irbkin.check.findings import Finding, of_backup
 from irbkin.check.settings import Settings
 from irbkin.errors import IrbkinError
-from irbkin.rapid import FileFinding, ModuleFile, Program
-from irbkin.rapid.program import ENDINGS, files_of, program_of
+from irbkin.rapid import FileFinding, Module, ModuleFile, Program
+from irbkin.rapid.program import ENDINGS, LIST, files_of, program_of
 
 
 @dataclass(frozen=True)
@@ -34,6 +33,10 @@ class Job:
     """Whether each PERS has the value that it was saved with: in a backup."""
     given: Collection[str] | None = None
     """Files of the program that alone are corrected; all if None."""
+    signals: Mapping[str, str] = field(default_factory=dict)
+    """Signals of the controller, as `Backup.signals`; empty if they are not known."""
+    tasks: Sequence[tuple[str, Sequence[Module]]] = ()
+    """Tasks of the controller, as `rapid.check_program` takes them; empty if not known."""
 
     def is_given(self, file: str) -> bool:
         """Whether a file may be corrected."""
@@ -50,17 +53,21 @@ def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Sett
         if not own and len(wrong) == before:
             raise IrbkinError(f"{name}: has no RAPID modules ({', '.join(ENDINGS)})")
         files += [file for file in own if not settings.excludes(file.path)]
-    return Job(robot, program_of(files, wrong), robot.name)
+    # A program's list has all of its modules.
+    is_list = all(isinstance(name, str) and name.lower().endswith(LIST) for name in given)
+    return Job(robot, program_of(files, wrong), robot.name, is_whole=is_list or None)
 
 
 def job_of_task(backup: Backup, task: Task, program: Program) -> Job:
     """Return the job of a task of a backup; without a robot if the task moves no known arm."""
     unit = backup.robots.get(task.robot or "")
     if task.moves is False or unit is None or unit.robot is None:
-        return Job(None, program, task.name)
+        return Job(None, program, task.name, signals=backup.signals)
     title = f"{task.name}: {unit.name}, {unit.arm}"
-    is_whole = not any(found.code == "module-missing" for found in backup.findings)
-    return Job(unit.robot, program, title, unit_rows(backup, unit.name), is_whole, is_saved=True)
+    open_codes = {"module-missing", "module-unlisted"}
+    is_whole = open_codes.isdisjoint(found.code for found in backup.findings)
+    units, signals = unit_rows(backup, unit.name), backup.signals
+    return Job(unit.robot, program, title, units, is_whole, is_saved=True, signals=signals)
 
 
 def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], list[Finding]]:
@@ -74,7 +81,10 @@ def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], lis
     backup = load_backup(path)
     programs = [(task, backup.programs[task.name]) for task in backup.tasks if task.modules]
     given = _given(backup, names)
-    every = [replace(job_of_task(backup, *own), given=given) for own in programs]
+    every = []
+    for task, program in programs:
+        job = job_of_task(backup, task, program)
+        every.append(replace(job, given=given, tasks=_tasks(backup, task, job)))
     asked = [job for job in every if any(job.is_given(it.path) for it in job.program.files)]
     if given is not None and not asked:
         raise IrbkinError(f"{names[0]}: is in no task of {path}: give --robot, or the backup")
@@ -84,6 +94,17 @@ def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], lis
         reasons = "; ".join(found.message for found in left_open[:3])
         raise IrbkinError(f"{path}: has no task whose robot is known: {reasons}")
     return jobs, left_open
+
+
+def _tasks(backup: Backup, task: Task, of: Job) -> list[tuple[str, Sequence[Module]]]:
+    """Return the names of all tasks, the one of the job first, and modules of those read whole;
+    nothing of part of a backup, or if a folder stands in for a name.
+    """
+    is_named = all(own.name != own.folder.rpartition("/")[2] for own in backup.tasks)
+    order = sorted(backup.tasks, key=lambda own: own is not task)
+    programs = {own.name: backup.programs.get(own.name) for own in order}
+    rows = programs.items() if of.is_whole and is_named else ()
+    return [(name, own.modules if own and not own.findings else ()) for name, own in rows]
 
 
 def _given(backup: Backup, names: Sequence[str]) -> set[str] | None:

@@ -16,7 +16,7 @@ from irbkin.cli.numbers import MOST_ANGLE, TOO_LARGE, number, number_or_data
 from irbkin.errors import UnknownRobotError
 
 if TYPE_CHECKING:
-    from irbkin import Cell, Robot
+    from irbkin import Robot
     from irbkin._arrays import Floats
 
 ROBOT_HELP = "name in the catalog, or a .urdf or RobotStudio file"
@@ -126,7 +126,7 @@ class Parser(argparse.ArgumentParser):
         """The frames of a .urdf file, the tool and the base."""
         self.add("--tip", metavar="LINK", help="of a .urdf file: the link that poses are of")
         self.add("--base-link", metavar="LINK", help="and the one that they are seen from")
-        words = "and how far angles are rounded to right angles [rad]: 1e-5 takes 1.5708 for one"
+        words = "and how far angles are rounded to right angles [rad]: 1e-3 takes 1.571 for one"
         self.add("--snap", type=number, metavar="RAD", help=words)
         if with_tool:
             self.add_frame("tool", "TCP in the flange", "tooldata")
@@ -187,12 +187,6 @@ def read_robot(arguments: argparse.Namespace) -> Robot:
         if is_other or is_data(name) or os.path.isfile(name):
             raise CommandError(f"{name[:60]!r} is no robot: {GIVE_ROBOT}") from None
         raise
-
-
-def read_cell(arguments: argparse.Namespace) -> Cell | None:
-    from irbkin import Cell
-
-    return None if arguments.cell is None else Cell.load(arguments.cell)
 
 
 def read_wobj(arguments: argparse.Namespace) -> Floats:

@@ -27,15 +27,14 @@ from typing import Any
 
 from irbkin import catalog_entry
 from irbkin._arm_options import is_arm_file, robot_of
-from irbkin.abb.archives import archive_of
-from irbkin.abb.roots import backup_above
+from irbkin.abb.folders import archive_of, backup_above
 from irbkin.check import fixes
 from irbkin.check.checker import Checker
 from irbkin.check.codes import UNUSED
 from irbkin.check.fixes import Text
 from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
-from irbkin.check.report.diff import render
+from irbkin.check.report.text import diff
 from irbkin.check.settings import FORMATS, option_files, schema, settings_of
 from irbkin.cli.arguments import ROBOT_HELP, Parser, read_tools
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
@@ -160,7 +159,7 @@ def _check(arguments: argparse.Namespace) -> int:
     if arguments.diff:
         is_shown = is_colored(arguments.color, sys.stdout)
         for file, before, after in texts:
-            _print(render(shown(file.path), before, after, is_shown))
+            _print(diff(shown(file.path), before, after, is_shown))
         if count := fixed.total():
             complain(f"--fix would remove {counted(count, 'finding')}")
         return FOUND if texts else FINE

@@ -37,7 +37,6 @@ OWN_WORDS = {
     ' and tip="': ' --tip "',
     ' or base="': ' or --base-link "',
     ' or tip="': ' or --tip "',
-    "T has no solution to draw": "the pose has no solution to draw",
     "is step in m, or speed in m/s and dt in s?": "take a larger --step",
 }
 """Words of the library in its units and calls, and the command's in their place."""

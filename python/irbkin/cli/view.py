@@ -16,8 +16,8 @@ import time
 import webbrowser
 from dataclasses import replace
 
-from irbkin import scene
-from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
+from irbkin import Cell, scene
+from irbkin.cli.arguments import Parser, joints, read_robot
 from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.rapid import motion_of, parsed
 from irbkin.scene import Scene
@@ -65,8 +65,7 @@ def _scene(arguments: argparse.Namespace) -> Scene:
         own = replace(own, arms=(replace(arm, motion=motion),))
     else:
         own = scene.of(robot, q=joints(arguments.joints, "--joints", robot.dof))
-    cell = read_cell(arguments)
-    return own if cell is None else own + scene.of(cell)
+    return own if arguments.cell is None else own + scene.of(Cell.load(arguments.cell))
 
 
 def _serve(own: Scene, port: int, is_quiet: bool) -> int:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from irbkin.abb.archives import archive_of
+from irbkin.abb.folders import archive_of
 from irbkin.check.report import counted
 from irbkin.cli.errors import CommandError, complain
 from irbkin.errors import IrbkinError

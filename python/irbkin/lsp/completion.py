@@ -9,10 +9,9 @@ from lsprotocol import types
 
 from irbkin.errors import IrbkinError
 from irbkin.lsp.code import BEGINNING, NOTHING, TYPE, Call, calls_at
-from irbkin.lsp.instructions import NOWHERE, known
-from irbkin.lsp.names import ROUTINES, Declared, Parameter, parameters
+from irbkin.lsp.names import NOWHERE, ROUTINES, Declared, Parameter, known, parameters
 from irbkin.lsp.session import Result
-from irbkin.lsp.text import Text
+from irbkin.lsp.text import NAME, Text
 from irbkin.rapid import JointTarget, calc_targets
 
 KINDS = {
@@ -25,6 +24,8 @@ MOST = 1_000
 """Names that are offered at a time."""
 ANY = ("", "var", "anytype")
 """Types of parameters and places that take all."""
+OF_TARGETS = ("R101", "R102", "R106", "C201", "C203")
+"""Codes of findings on a target by itself."""
 Place = tuple[Result, int, Text, int]
 """The last check of a program, a module of it, the text of that as it is now, and an offset."""
 
@@ -52,7 +53,8 @@ def completions(at: Place, trigger: str | None) -> list[types.CompletionItem]:
             return calls is TYPE and it.kind in ("RECORD", "ALIAS")
         if calls is BEGINNING:
             return it.kind == "PROC" or not (it.is_constant or it.kind in ROUTINES)
-        return it.kind not in ("PROC", "TRAP") and (kind in ANY or it.type == kind)
+        is_signal = kind == "signal" and it.type.startswith(kind)
+        return it.kind not in ("PROC", "TRAP") and (kind in ANY or it.type == kind or is_signal)
 
     wanted = {lower: it for lower, it in seen.items() if is_wanted(it)}
     if len(wanted) > MOST:
@@ -83,7 +85,11 @@ def _seen(at: Place) -> Mapping[str, Declared]:
     """All names that a place sees, in lower case."""
     result, module, text, offset = at
     routine = result.names.routine_at(module, text.place(offset)[0])
-    return {**known(), **result.names.visible(module, routine)}
+    signals = {
+        name.lower(): Declared(NOWHERE, name, kind, f"{kind} {name}", None, False, 0, 0)
+        for name, kind in ((it, f"signal{of.lower()}") for it, of in result.job.signals.items())
+    }
+    return {**known(), **signals, **result.names.visible(module, routine)}
 
 
 def _parameters(
@@ -116,23 +122,44 @@ def _item(it: Declared, module: int, fault: str | None) -> types.CompletionItem:
 
 
 def _faults(result: Result, module: int, line: int, seen: Mapping[str, Declared]) -> dict[str, str]:
-    """Why the arm does not reach targets, with the tool of the move before a line, by names."""
-    robot, modules, found = result.job.robot, result.job.program.modules, dict[str, str]()
+    """Why the arm does not reach targets, by names: in the moves that use them, else with the tool
+    and the work object of the move before a line.
+    """
+    robot, modules = result.job.robot, result.job.program.modules
     if robot is None:
-        return found
+        return {}
+    targets = {name: it for name, it in seen.items() if it.kind == "robtarget"}
+    used = _faults_in_moves(result, targets)
+    found = {name: own[0] for name, own in used.items() if all(own)}
     moves = [move for move in modules[module].moves if move.tool.value is not None]
     ahead = [move for move in moves if move.line < line]
     tool = wobj = None
     for move in ahead[-1:] or moves[:1]:
         tool, wobj = move.tool.value, move.wobj.value if move.wobj else None
-    for index in {it.module for it in seen.values() if it.kind == "robtarget"}:
+    for index in {it.module for name, it in targets.items() if name not in used}:
         with contextlib.suppress(IrbkinError):
             table = calc_targets(robot, modules[index], tool, wobj)
-            pairs = zip(table.names, table.findings, strict=True)
-            found |= {name.lower(): f"{it.code} {it.name}" for name, it in pairs if it}
+            pairs = zip(map(str.lower, table.names), table.findings, strict=True)
+            found |= {name: f"{it.code} {it.name}" for name, it in pairs if it and name not in used}
     lower, upper = robot.limits.T
     for name, it in seen.items():
         q = it.value.q if isinstance(it.value, JointTarget) else lower
         if len(q) == len(lower) and ((q < lower) | (q > upper)).any():
             found[name] = "outside limits"
+    return found
+
+
+def _faults_in_moves(result: Result, targets: Mapping[str, Declared]) -> dict[str, list[str]]:
+    """What is wrong with targets in each checked move that uses them, by names; else empty."""
+    found: dict[str, list[str]] = {}
+    for module, moves in result.moves.items():
+        own = result.found_in.get(result.job.program.files[module].path, ())
+        wrong = {(it.line, it.column): it for it in own if it.code in OF_TARGETS}
+        for move in (it for it in moves if it.unchecked is None):
+            for name in targets.keys() & NAME.findall(move.target.lower()):
+                it = targets[name]
+                is_own = it.module == module and it.routine in (None, move.routine)
+                if is_own or not (it.is_local or it.routine):
+                    fault = wrong.get((move.line, move.column))
+                    found.setdefault(name, []).append(f"{fault.code} {fault.name}" if fault else "")
     return found

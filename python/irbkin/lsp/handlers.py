@@ -1,18 +1,26 @@
 """The handlers of messages."""
 
+from collections.abc import Container
+
 from lsprotocol import types
 
+from irbkin import rapid
+from irbkin.errors import IrbkinError
+from irbkin.lsp.code import before, occurrences
 from irbkin.lsp.completion import MOST, completions, signature
 from irbkin.lsp.hover import hover
 from irbkin.lsp.marks import FIX_ALL, actions, folds, location, places, symbols
-from irbkin.lsp.names import Declared
-from irbkin.lsp.rename import refusal
+from irbkin.lsp.names import Declared, known
 from irbkin.lsp.server import WAIT, Document, Refusal, Server, path_of
 from irbkin.lsp.session import Result
 from irbkin.lsp.text import Text
 from irbkin.rapid.program import ENDINGS
 
 CODE_ACTIONS = types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL])
+LONGEST = 32
+"""Characters of a name in RAPID."""
+ENTRY = "main"
+"""The procedure that a controller calls."""
 
 
 def register(server: Server) -> None:
@@ -104,16 +112,20 @@ def register(server: Server) -> None:
         return [(result, declared) for result, declared in found if declared is not None]
 
     async def everywhere(params: Document) -> list[tuple[Result, Declared]]:
-        """The name at a position, in every program that shares a file in which it is."""
-        found, seen = await named(params), set[str]()
+        """The name at a position, in every program of its backup that has the same; of files that
+        are not open, as they are on disk now.
+        """
+        path = path_of(params.text_document.uri)
+        if path in server.texts():
+            server.queue.open(path, server.options)
+        found = await named(params)
+        others = await server.queue.read_tasks(path, server.options) if found else {}
+        for result, _ in found:
+            others.pop(result.job.title, None)
         for result, declared in found:
-            for module, at in result.references(declared):
-                path = result.job.program.files[module].path
-                if path not in seen and server.programs.is_shared(path):
-                    others = await server.queue.results(path, server.options)
-                    pairs = ((own, own.declared(own.modules[path], at)) for own in others)
-                    found += ((own, other) for own, other in pairs if other is not None)
-                seen.add(path)
+            for title, other in list(others.items()):
+                if same := result.counterpart(other, declared):
+                    found.append((others.pop(title), same))
         return found
 
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
@@ -129,7 +141,8 @@ def register(server: Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     async def renamed(params: types.RenameParams) -> types.WorkspaceEdit:
         own, new = await everywhere(params), params.new_name
-        reasons = [refusal(*one, new) for one in own] or ["nothing that is declared is here"]
+        taken = server.programs.task_names()
+        reasons = [refusal(*one, new, taken) for one in own] or ["nothing that is declared is here"]
         if not await server.queue.rest(path_of(params.text_document.uri), 0.0):
             reasons.append("the program is still being checked")
         for reason in filter(None, reasons):
@@ -156,3 +169,32 @@ def register(server: Server) -> None:
         path = path_of(params.text_document.uri)
         await server.queue.rest(path, WAIT)
         return actions(server.results(path), path, params)
+
+
+def refusal(result: Result, declared: Declared, new: str, tasks: Container[str]) -> str | None:
+    """Return why something declared cannot have another name; None if it can."""
+    try:
+        rapid.dump({new: 0.0})
+    except IrbkinError as error:
+        return str(error)
+    if len(new) > LONGEST:
+        return f"{new} has {len(new)} characters, more than RAPID's {LONGEST}"
+    if new.lower() == declared.name.lower():
+        return None
+    if declared.kind == "PROC" and ENTRY in (declared.name.lower(), new.lower()):
+        return f"a controller begins at {ENTRY}: no procedure gets or loses this name"
+    for name in (declared.name, new):
+        if name.lower() in tasks:
+            return f"{name} is the name of a task"
+    if new.lower() in known():
+        return f"{new} is a name of RAPID itself"
+    # It would lead to something else where it is named now, even if that is out of sight.
+    routine = (declared.routine or "").lower()
+    for module in result.scope(declared):
+        text, file = result.text(module), result.job.program.files[module].path
+        for at in occurrences(text.source, new):
+            line, _ = text.place(at)
+            of = (result.names.routine_at(module, line) or "").lower()
+            if routine in ("", of) and before(text.source, at) not in ("\\", "."):
+                return f"{new} is taken: {file}:{line}"
+    return None

@@ -14,7 +14,6 @@ from irbkin.rapid import CheckedMove, Pose
 
 MOST_MOVES = 3
 """Largest number of moves shown for a target."""
-TARGETS = ("robtarget", "jointtarget")
 
 
 def hover(result: Result, module: int, offset: int) -> tuple[str, tuple[int, int]]:
@@ -27,7 +26,7 @@ def hover(result: Result, module: int, offset: int) -> tuple[str, tuple[int, int
     parts: list[str] = []
     if declared is not None:
         parts += [f"```rapid\n{declared.words}\n```", *_value(declared.value)]
-    if declared is not None and declared.kind in TARGETS:
+    if declared is not None and declared.kind in ("robtarget", "jointtarget"):
         name = text.source[slice(*span)].lower()
         if move is None or name not in map(str.lower, NAME.findall(move.target)):
             return "\n\n".join([*parts, *_moves_to(result, declared)]), span

@@ -8,7 +8,7 @@ from typing import Any
 
 from irbkin._arm_options import robot_of
 from irbkin.abb import Backup, Task, load_backup
-from irbkin.abb.roots import backup_above
+from irbkin.abb.folders import backup_above
 from irbkin.check.checker import Checker
 from irbkin.check.jobs import Job, job_of_task
 from irbkin.check.settings import Settings, options_of, settings_of
@@ -78,11 +78,15 @@ class Programs:
         note = f"{path} is in no task of its backup, only its text is checked"
         return found or [Session(Job(None, UNREAD, path), [path], checker, [note])]
 
-    def is_shared(self, path: str) -> bool:
-        """Whether several tasks of a backup have a file."""
+    def files_of_tasks(self, path: str) -> list[str]:
+        """Return a file of each task of the backup that has a file."""
+        backup = self._backups.get(backup_above(Path(path)) or Path())
+        return [str(it.modules[0].path) for it in backup.tasks if it.modules] if backup else []
+
+    def task_names(self) -> set[str]:
+        """Return the names of the tasks of the backups in lower case, and that of one robot."""
         tasks = (task for backup in [*self._backups.values()] for task in backup.tasks)
-        own = _place(path)
-        return sum(any(_place(str(it.path)) == own for it in task.modules) for task in tasks) > 1
+        return {"t_rob1", *(task.name.lower() for task in tasks)}
 
     def forget(self) -> None:
         """Read backups again."""
@@ -118,9 +122,5 @@ def _paths(path: str, settings: Settings) -> tuple[list[str], list[str]]:
 
 def _with(paths: Sequence[str], path: str) -> list[str]:
     """Paths with one in the editor's spelling: its letter case may differ, and links lead to it."""
-    own = _place(path)
-    return [path if _place(file) == own else file for file in paths]
-
-
-def _place(path: str) -> str:
-    return os.path.normcase(os.path.realpath(path))
+    places = [os.path.normcase(os.path.realpath(it)) for it in (path, *paths)]
+    return [path if place == places[0] else it for it, place in zip(paths, places[1:], strict=True)]

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -82,11 +83,17 @@ class Queue:
             await asyncio.sleep(min(0.002, left))
         return True
 
-    async def results(self, path: str, options: Mapping[str, Any]) -> list[Result]:
-        """Check all programs of a file, which need not be open."""
-        loop, texts = asyncio.get_running_loop(), dict(self._texts())
-        found = await loop.run_in_executor(self._pool, self._programs.sessions, path, options)
-        return [await loop.run_in_executor(self._pool, own.check, texts) for own in found]
+    async def read_tasks(self, path: str, options: Mapping[str, Any]) -> dict[str, Result]:
+        """Read the programs of all tasks of the backup of a file, by titles; check no moves."""
+        texts, programs = dict(self._texts()), self._programs
+
+        def read() -> dict[str, Result]:
+            files = programs.files_of_tasks(path)
+            sessions = (own for file in files for own in programs.sessions(file, options))
+            unmoved = (replace(own, job=replace(own.job, robot=None)) for own in sessions)
+            return {own.job.title: own.check(texts) for own in unmoved}
+
+        return await asyncio.get_running_loop().run_in_executor(self._pool, read)
 
     def stop(self) -> None:
         """End the thread after its current check."""

@@ -143,9 +143,9 @@ def _shared(module: Module) -> frozenset[str]:
     return frozenset(map(str.lower, names)) - own
 
 
-def _stamp(path: str) -> tuple[int, int]:
+def _stamp(path: str) -> tuple[int, int, int]:
     of = os.stat(path)
-    return of.st_mtime_ns, of.st_size
+    return of.st_mtime_ns, of.st_ctime_ns, of.st_size
 
 
 def _content(path: str) -> bytes:

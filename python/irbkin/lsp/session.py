@@ -70,6 +70,18 @@ class Result:
                 if self.declared(module, at) == declared:
                     yield module, at
 
+    def counterpart(self, other: "Result", declared: Declared) -> Declared | None:
+        """Return what something declared is in the program of another task: a PERS by its name and
+        type, else what is in the same place of the same file.
+        """
+        same = other.names.shared.get(declared.name.lower())
+        words = declared.words.upper()
+        if words.startswith("PERS ") and same is not None and same.words.upper() == words:
+            return same
+        paths = ((self.job.program.files[it].path, at) for it, at in self.references(declared))
+        there = (other.declared(other.modules[it], at) for it, at in paths if it in other.modules)
+        return next(filter(None, there), None)
+
     def scope(self, declared: Declared) -> Iterable[int]:
         """Return the modules whose statements see something declared."""
         is_inner = declared.is_local or declared.routine is not None
@@ -129,10 +141,7 @@ class Session:
         found_in: dict[str, list[Finding]] = {}
         for finding in found:
             found_in.setdefault(finding.file, []).append(finding)
-        own = ((index, texts.get(file.path)) for index, file in enumerate(job.program.files))
-        modules = job.program.modules
-        same = {at: it for at, it in own if it and it.source == modules[at].source}
-        return Result(job, moves, found_in, Names(job.program, self._declared), same)
+        return Result(job, moves, found_in, Names(job.program, self._declared))
 
     def _part(self, job: Job, group: tuple[int, ...], texts: Mapping[str, Text]) -> Part:
         """Check a group of modules, if it is not as before; without modules if it takes long."""

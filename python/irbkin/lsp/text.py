@@ -35,10 +35,6 @@ class Text:
         return [0, *accumulate(len(row) + 1 for row in self.source.split("\n")[:-1])]
 
     @cached_property
-    def _is_ascii(self) -> bool:
-        return self.source.isascii()
-
-    @cached_property
     def _bytes(self) -> bytes:
         return self.source.encode()
 
@@ -60,7 +56,7 @@ class Text:
         begin = self._starts[position.line]
         end = self._starts[position.line + 1] if position.line + 1 < len(self._starts) else None
         line = self.source[begin:end].rstrip("\r\n")
-        if self._is_ascii:
+        if self.source.isascii():
             return begin + min(position.character, len(line))
         units = line.encode("utf-16-le")[: 2 * position.character]
         # Half of a surrogate pair is dropped.
@@ -95,7 +91,7 @@ class Text:
 
     def range_of_bytes(self, begin: int, end: int) -> types.Range:
         """Return the range between two bytes of the text in UTF-8."""
-        if not self._is_ascii:
+        if not self.source.isascii():
             begin, end = (len(self._bytes[:byte].decode(errors="ignore")) for byte in (begin, end))
         return self.range(begin, end)
 

@@ -129,8 +129,8 @@ def load_program(path: str | PathLike[str] | Iterable[str | PathLike[str]]) -> P
 
 
 def program_of(files: Iterable[ModuleFile], findings: Iterable[FileFinding] = ()) -> Program:
-    """Return the program of files that are read; findings on them as before."""
-    files = list(files)
+    """Return the program of files that are read, each once; findings on them as before."""
+    files = list({os.path.realpath(file.path): file for file in files}.values())
     return program_from(files, read_modules([file.content for file in files]), findings)
 
 

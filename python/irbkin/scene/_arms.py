@@ -1,5 +1,6 @@
 """Arms of scenes: the chain of a robot, its body, its postures and its motion."""
 
+import contextlib
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Any
@@ -64,7 +65,11 @@ def arm_of(
     bare = robot.with_base(np.eye(4)).with_tool(np.eye(4))
     is_known = bare.name in catalog() and bare == Robot(bare.name)
     urdf = "" if is_known else bare.to_urdf(visual=False)
-    body = _body(robot)
+    body = robot.body
+    if body is None:
+        # Some lengths give none.
+        with contextlib.suppress(InvalidModelError):
+            body = robot.approximate_body()
     shapes = () if body is None else zip(body.links.tolist(), body.capsules, strict=True)
     return Arm(
         robot.name if name is None else name,
@@ -93,25 +98,13 @@ def _hulls(body: Body | None) -> tuple[LinkHull, ...]:
     )
 
 
-def _body(robot: Robot) -> Body | None:
-    """The body of a robot, or an approximate one; None if its lengths give none."""
-    if robot.body is not None:
-        return robot.body
-    try:
-        return robot.approximate_body()
-    except InvalidModelError:
-        return None
-
-
-def motion_of(
-    t: npt.ArrayLike, q: npt.ArrayLike, lines: npt.ArrayLike = (), source: str = ""
-) -> Motion:
+def motion_of(t: npt.ArrayLike, q: npt.ArrayLike, lines: npt.ArrayLike = ()) -> Motion:
     """Return a motion of samples, thinned evenly to a number that a face can draw."""
     times, angles = np.asarray(t, dtype=float), as_array(q, "q", (None, None), InvalidJointsError)
     kept = evenly(len(times), MOST_SAMPLES)
     numbers = np.asarray(lines, dtype=int)
     own = tuple(numbers[kept].tolist()) if len(numbers) else ()
-    return Motion(rows(times[kept]), rows(angles[kept]), own, source)
+    return Motion(rows(times[kept]), rows(angles[kept]), own)
 
 
 def link_frames(arm: Arm, q: npt.ArrayLike) -> Floats:

@@ -1,16 +1,32 @@
 """Small pictures of arms and curves, as SVG without any other package."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from irbkin._arrays import Floats
-from irbkin.scene._arms import link_frames, start
-from irbkin.scene._data import Arm, Scene
-from irbkin.scene._look import BASE, nearness, on_paper
-from irbkin.scene._strokes import pieces
+from irbkin.scene._arms import face_normals, link_frames, outward, solids, start
+from irbkin.scene._data import Arm, LinkHull, LinkShape, Scene
 
+# Seen from the front on the right, from above.
+AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])
+SIDEWAYS = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
+LEVEL = np.array([np.cos(AZIMUTH), np.sin(AZIMUTH), 0.0])
+UPWARD = np.cos(ELEVATION) * np.array([0.0, 0.0, 1.0]) - np.sin(ELEVATION) * LEVEL
+TOWARD = np.cross(SIDEWAYS, UPWARD)
+LIGHT = SIDEWAYS * -0.35 + UPWARD * 0.75 + TOWARD * 0.56
+"""The direction to the light, of length 1."""
+BASE, LINKS, CARRIED = "#5b6470", ("#e8912d", "#f3ae5c"), "#6f7a88"
+"""Colors of the base, of the links in turn, and of what the flange carries."""
+Filled = Iterator[tuple[float, list[Floats], float]]
+"""How near, polygons of the paper, and how much lighter than the color of the link."""
+LAYERS = ((1.0, -0.16), (0.82, 0.0), (0.5, 0.18))
+"""Layers of a capsule: part of its radius, and how much lighter than its color."""
+TONES = 9
+"""Tones from black to white of the faces of a hull."""
+CAP = 11
+"""Corners of a round end."""
 SIZE = 200
 """Width and height of a picture, in its own units."""
 LARGE = 800
@@ -18,6 +34,83 @@ LARGE = 800
 GHOST = "#98a2b3"
 LINES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#777777")
 MOST_GHOSTS = 7
+
+
+def toned(color: str, lighter: float) -> str:
+    """Return a color mixed with white, or with black if it is to be darker."""
+    own = np.array(list(bytes.fromhex(color[1:])))
+    mixed = (1 - abs(lighter)) * own + 255 * max(lighter, 0.0)
+    return "#" + bytes(mixed.round().astype(int).tolist()).hex()
+
+
+def on_paper(points: Floats) -> Floats:
+    """Project points of the world, shape (..., 3), to the paper, (..., 2)."""
+    return np.asarray(points @ np.column_stack([SIDEWAYS, UPWARD]))
+
+
+def nearness(points: Floats) -> Floats:
+    """Return how near points are to the eye [m], shape (...): far ones are drawn first."""
+    return points @ TOWARD
+
+
+def pieces(arm: Arm, q: npt.ArrayLike) -> list[tuple[list[Floats], str]]:
+    """Return the body of an arm at joint angles [rad] as pieces, far ones first: polygons of the
+    paper, shape (k, 2) [m], that are filled together, and their color, as "#0072b2".
+    """
+    frames = link_frames(arm, q)[:-1]
+    found = []
+    for it in solids(arm):
+        # Parts that the flange carries move with the last link.
+        frame = frames[min(it.link, len(frames) - 1)]
+        layers = _stadiums(it, frame) if isinstance(it, LinkShape) else _faces(it, frame)
+        color = BASE if it.link == 0 else LINKS[it.link % 2]
+        own = CARRIED if it.link > len(arm.joints) else color
+        found += [(near, some, toned(own, tone)) for near, some, tone in layers]
+    return [(some, fill) for _, some, fill in sorted(found, key=lambda layer: layer[0])]
+
+
+def _stadiums(it: LinkShape, frame: Floats) -> Filled:
+    """The outline of a capsule, and smaller ones towards the light."""
+    points = np.array([it.a, it.b]) @ frame[:3, :3].T + frame[:3, 3]
+    ends = on_paper(points)
+    along = ends[1] - ends[0]
+    turn = np.arctan2(along[1], along[0]) if np.hypot(*along) > 0.0 else 0.0
+    angles = turn + np.linspace(-np.pi / 2, np.pi / 2, CAP)
+    cap = it.radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    for part, lighter in LAYERS:
+        middle = ends + (1.0 - part) * it.radius * np.array([-0.25, 0.35])
+        outline = np.vstack([middle[1] + part * cap, middle[0] - part * cap])
+        yield float(nearness(points).mean()), [outline], lighter
+
+
+def _faces(it: LinkHull, frame: Floats) -> Filled:
+    """The faces of a hull that are seen, those of one tone together."""
+    points, faces = outward(it) @ frame[:3, :3].T + frame[:3, 3], np.array(it.faces)
+    normals, paper = face_normals(points, faces), on_paper(points)
+    tones = np.round(TONES * (0.6 * normals @ LIGHT - 0.3)) / TONES
+    seen = nearness(normals) > 0.0
+    for tone in np.unique(tones[seen]):
+        outlines = _outlines(faces[seen & (tones == tone)].tolist())
+        yield float(nearness(points).mean()), [paper[it] for it in outlines], float(tone)
+
+
+def _outlines(faces: list[list[int]]) -> list[list[int]]:
+    """The edges around triangles, where no other of them is: closed loops of points."""
+    edges = {(face[i - 1], face[i]) for face in faces for i in range(3)}
+    following: dict[int, list[int]] = {}
+    for one, other in sorted(edges):
+        if (other, one) not in edges:
+            following.setdefault(one, []).append(other)
+    loops = []
+    while following:
+        at, loop = next(iter(following)), []
+        while at in following:
+            loop.append(at)
+            at = following[at].pop()
+            if not following[loop[-1]]:
+                del following[loop[-1]]
+        loops.append(loop)
+    return loops
 
 
 def drawn(arm: Arm, q: npt.ArrayLike, ghosts: Iterable[npt.ArrayLike] = ()) -> str:

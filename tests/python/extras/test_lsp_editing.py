@@ -1,5 +1,7 @@
 """What `irbkin lsp` does while one edits, asked by a client as editors do."""
 
+import os
+
 import pytest
 from backups import backinfo, cfg, written
 from editor import editing, part_of
@@ -252,6 +254,7 @@ async def test_a_name_is_changed_over_the_program(program):
         ("pNear,v1000", "p" * 33, "more than RAPID's 32"),
         ("pNear,v1000", "movel", "is a name of RAPID itself"),
         ("pNear,v1000", "tool0", "is a name of RAPID itself"),
+        ("pNear,v1000", "T_ROB1", "T_ROB1 is the name of a task"),
         ("pNear,v1000", "PCOPY", "PCOPY is taken: "),
         ("pNear,v1000", "pLocal", "pLocal is taken: "),
         ("nCount;", "rother", "rother is taken: "),
@@ -302,6 +305,121 @@ async def test_a_name_is_changed_in_all_tasks_that_share_its_module(tmp_path):
         uri = editor.open(paths["RAPID/TASK1/PROGMOD/One.mod"])
         await editor.marks(uri)
         assert f"pTaken is taken: {two}:2" in await editor.rename(uri, "rTask", "pTaken")
+
+
+async def renamed_after(program, change):
+    """The text of a file that a change on the disk leaves, after a rename in another one."""
+    data = program / "data.sys"
+    async with editing(options=OPTIONS) as editor:
+        uri = editor.open(program / "main.mod")
+        await editor.marks(uri)
+        change(data)
+        others = await editor.rename(uri, "pNear,v1000", "pSeam")
+    assert data.read_text().count("pNear") == others[data.as_uri()].count("pSeam") > 0
+    return others
+
+
+@pytest.mark.asyncio
+async def test_a_file_that_is_not_open_is_edited_as_it_is_on_the_disk(program):
+    def lengthen(data):
+        data.write_text(DATA.replace("MODULE", "! a line\nMODULE", 1))
+
+    def swap(data):
+        # As long as before, with the time of before.
+        at = data.stat()
+        old, new = "    CONST robtarget pNear:=", "  CONST robtarget  pNear :="
+        data.write_text(DATA.replace(old, new))
+        os.utime(data, ns=(at.st_atime_ns, at.st_mtime_ns))
+
+    for change in (lengthen, swap):
+        (program / "data.sys").write_text(DATA)
+        others = await renamed_after(program, change)
+        text = (program / "data.sys").read_text()
+        assert others[(program / "data.sys").as_uri()] == text.replace("pNear", "pSeam")
+
+
+@pytest.mark.asyncio
+async def test_a_file_that_came_to_the_folder_is_renamed_in_too(program):
+    late = program / "late.mod"
+    others = await renamed_after(
+        program, lambda _: late.write_text(MAIN.replace("Main", "Late").replace("main", "rLate"))
+    )
+    assert others[late.as_uri()].count("pSeam") == 3
+
+
+def two_tasks(folder, left, right):
+    """A backup with a module in each of two tasks; the files of the modules."""
+    tasks = ['-Name "T_ROB1" -Type "NORMAL"', '-Name "T_ROB2" -Type "NORMAL"']
+    signals = ['-Name "doGrip" -SignalType "DO"', '-Name "diPart" -SignalType "DI"']
+    signals += ['-Name "doAir" -SignalType "DO"', '-Name "goNumber" -SignalType "GO"']
+    signals += ['-Name "aoGlue" -SignalType "AO"', '-Name "aiForce" -SignalType "AI"']
+    files = {
+        "RAPID/TASK1/PROGMOD/Left.mod": left,
+        "RAPID/TASK2/PROGMOD/Right.mod": right,
+        "SYSPAR/SYS.cfg": cfg("SYS", "6:0", CAB_TASKS=tasks),
+        "SYSPAR/EIO.cfg": cfg("EIO", "6:0", EIO_SIGNAL=signals),
+        "BACKINFO/backinfo.txt": backinfo(("T_ROB1",), ("T_ROB2",)),
+    }
+    root = written(folder, files)
+    return [root / name for name in list(files)[:2]]
+
+
+def of_task(name, storage):
+    return f"""MODULE {name}
+ {storage} num nShared:=1;
+ PROC main()
+  nShared:=nShared+1;
+  Stop;
+ ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize(
+    ("storages", "is_one"),
+    [
+        (("PERS", "PERS"), True),
+        (("PERS", "TASK PERS"), False),
+        (("PERS", "VAR"), False),
+        (("TASK PERS", "PERS"), False),
+        (("LOCAL PERS", "PERS"), False),
+    ],
+)
+@pytest.mark.asyncio
+async def test_a_pers_is_one_datum_in_all_tasks_of_a_backup(tmp_path, storages, is_one):
+    texts = [of_task(*pair) for pair in zip(("Left", "Right"), storages, strict=True)]
+    left, right = two_tasks(tmp_path, *texts)
+    async with editing() as editor:
+        uri = editor.open(left)
+        others = await editor.rename(uri, "nShared:=nS", "nBoth")
+        assert editor.texts[uri][1] == texts[0].replace("nShared", "nBoth")
+    assert others == ({right.as_uri(): texts[1].replace("nShared", "nBoth")} if is_one else {})
+
+
+@pytest.mark.asyncio
+async def test_a_pers_of_several_tasks_gets_no_name_that_one_of_them_has(tmp_path):
+    taken = of_task("Right", "PERS").replace("Stop;", "nTaken:=1;")
+    left, right = two_tasks(tmp_path, of_task("Left", "PERS"), taken)
+    async with editing() as editor:
+        uri = editor.open(left)
+        refused = await editor.rename(uri, "nShared:=nS", "nTaken")
+        assert refused == f"nTaken is taken: {right}:5"
+
+
+@pytest.mark.parametrize(
+    ("part", "new", "why"),
+    [
+        ("nShared", "T_ROB2", "T_ROB2 is the name of a task"),
+        ("nShared", "t_rob1", "t_rob1 is the name of a task"),
+        ("T_ROB2()", "rStart", "T_ROB2 is the name of a task"),
+    ],
+)
+@pytest.mark.asyncio
+async def test_the_name_of_a_task_is_neither_given_nor_changed(tmp_path, part, new, why):
+    text = of_task("Left", "PERS").replace("PROC main", "PROC T_ROB2")
+    left, _ = two_tasks(tmp_path, text, of_task("Right", "PERS"))
+    async with editing() as editor:
+        assert why in await editor.rename(editor.open(left), part, new)
 
 
 @pytest.mark.asyncio
@@ -370,3 +488,68 @@ ENDMODULE
         assert whole.endswith("ENDPROC")
         editor.change(uri, "VAR seam", "VAR ")
         assert {"seam", "num"} <= {*await editor.labels(uri, "sOwn;")}
+
+
+@pytest.mark.asyncio
+async def test_signals_are_offered_by_their_types(tmp_path):
+    left, _ = two_tasks(tmp_path, of_task("Left", "PERS"), of_task("Right", "PERS"))
+    text = left.read_text()
+    async with editing() as editor:
+        uri = editor.open(left)
+
+        async def offered(typed):
+            editor.write(uri, text.replace("Stop;", f"{typed}\n"))
+            return await editor.labels(uri, f"{typed}\n", len(typed))
+
+        for typed in ("Set ", "Reset ", "SetDO ", "PulseDO \\PLength:=1, ", "WaitDO ", "InvertDO "):
+            assert await offered(typed) == ["doAir", "doGrip"]
+        assert (await offered("WaitDI ")) == ["diPart"]
+        assert (await offered("SetAO ")) == ["aoGlue"]
+        assert (await offered("SetGO ")) == ["goNumber"]
+        assert (await offered("WaitAI ")) == ["aiForce"]
+        everything = ["aiForce", "aoGlue", "diPart", "doAir", "doGrip", "goNumber"]
+        assert (await offered("AliasIO ")) == everything
+        assert (await offered("TriggIO trg,0\\GOp:=")) == ["goNumber"]
+        assert not {*everything} & {*await offered("nShared:=")}
+
+
+TOOLS = f"""MODULE Tools
+    PERS tooldata tLong:=[TRUE,[[0,0,900],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+    PERS wobjdata wFar:=[FALSE,TRUE,"",[[2000,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+    CONST robtarget pNear:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],{FAR}];
+    CONST robtarget pLong:=[[900,-300,-300],[0,0,1,0],[-1,0,-1,0],{FAR}];
+    CONST robtarget pOfWobj:=[[-1100,-300,500],[0,0,1,0],[-1,0,-1,0],{FAR}];
+    CONST robtarget pShifted:=[[-1100,-300,500],[0,0,1,0],[-1,0,-1,0],{FAR}];
+    CONST robtarget pUnused:=[[-1100,-300,500],[0,0,1,0],[-1,0,-1,0],{FAR}];
+    PROC main()
+        MoveJ pOfWobj,v5,fine,tool0\\WObj:=wFar;
+        MoveJ Offs(pShifted,0,0,1),v5,fine,tool0\\WObj:=wFar;
+        MoveJ pNear,v5,fine,tool0;
+        MoveJ pAway,v5,fine,tool0;
+        MoveL p;
+    ENDPROC
+    PROC rOther()
+        MoveJ pAway,v5,fine,tool0\\WObj:=wFar;
+    ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.asyncio
+async def test_a_target_is_judged_by_the_moves_that_use_it(tmp_path):
+    away = TOOLS.replace("pUnused:=", "pAway:=").splitlines()[7]
+    text = TOOLS.replace("    PROC main", f"{away}\n    PROC main", 1)
+    async with editing(options=OPTIONS) as editor:
+        uri = editor.open(tmp_path / "tools.mod", text)
+        await editor.marks(uri)
+        found = {it.label: it.detail for it in await editor.completions(uri, "p;\n    ENDPROC", 1)}
+        # Of several moves one that reaches it is enough.
+        for name in ("pNear", "pOfWobj", "pShifted", "pAway"):
+            assert found[name] == f"CONST robtarget {name}"
+        # No move uses it: by the move before.
+        assert found["pUnused"].startswith(("R101", "R102", "C201"))
+        editor.write(uri, text.replace("MoveJ pNear,v5,fine,tool0", "MoveJ pNear,v5,fine,tLong"))
+        found = {it.label: it.detail for it in await editor.completions(uri, "p;\n    ENDPROC", 1)}
+        await editor.marks(uri)
+        found = {it.label: it.detail for it in await editor.completions(uri, "p;\n    ENDPROC", 1)}
+        assert found["pOfWobj"] == "CONST robtarget pOfWobj"

@@ -40,11 +40,6 @@ class SourceText:
         self.text = text
 
     @cached_property
-    def lines(self) -> list[str]:
-        """Its lines, without their ends."""
-        return [line.rstrip("\r") for line in self.text.split("\n")]
-
-    @cached_property
     def _rows(self) -> list[bytes]:
         return self.text.encode().split(b"\n")
 
@@ -54,8 +49,8 @@ class SourceText:
         return list(accumulate((len(row) + 1 for row in self._rows[:-1]), initial=0))
 
     def line(self, number: int) -> str:
-        """A line by its number from 1, empty beyond the last."""
-        return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+        """A line by its number from 1, without its end; empty beyond the last."""
+        return self._rows[number - 1].decode().rstrip("\r") if 0 < number <= len(self._rows) else ""
 
     def position(self, byte: int) -> tuple[int, int]:
         """Line and column, from 1 and in characters, of a byte of the text in UTF-8."""

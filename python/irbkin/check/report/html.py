@@ -1,6 +1,7 @@
 """A report as the page of `irbkin view`, with the program and what was found in it."""
 
 import json
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,7 @@ def render(report: Report) -> str:
     names += [name for name in others if name not in names]
     index = {name: module for module, name in enumerate(names)}
     modules = [{"name": name, "text": report.text_of(name).text} for name in names]
-    procedures = [
+    procedures: list[dict[str, Any]] = [
         {"module": index, "name": it.name}
         for index, module in enumerate(job.program.modules)
         for it in module.routines
@@ -48,7 +49,10 @@ def render(report: Report) -> str:
         "findings": [_finding(it, index) for it in report.findings],
         "faults": [],
     }
-    chosen = _chosen(procedures, moves)
+    # Main is played, or the first procedure that moves.
+    main = (it for it in procedures if it["name"].lower() == "main")
+    moving = ({"module": it["module"], "name": it["routine"]} for it in moves if it["routine"])
+    chosen = next(chain(main, moving), None)
     if chosen is None:
         program["motion"] = {"error": "no procedure moves"}
     else:
@@ -91,12 +95,3 @@ def _motion(robot: Robot, arm: Arm, modules: list[dict[str, Any]], chosen: Any) 
     engine.answer(json.dumps({"do": "robot", **source, "tool": tool, "base_pose": base}))
     routine = {"module": chosen["module"], "routine": chosen["name"]}
     return json.loads(engine.answer(json.dumps({"do": "motion", "modules": modules, **routine})))
-
-
-def _chosen(procedures: list[dict[str, Any]], moves: list[dict[str, Any]]) -> dict[str, Any] | None:
-    """The procedure that is played: main, or the first that moves."""
-    for it in procedures:
-        if it["name"].lower() == "main":
-            return it
-    moving = [{"module": it["module"], "name": it["routine"]} for it in moves if it["routine"]]
-    return moving[0] if moving else None

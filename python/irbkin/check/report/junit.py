@@ -19,7 +19,7 @@ def render(report: Report) -> str:
         found[it.file].append(it)
     root = Element("testsuites", name="irbkin check")
     for file in dict.fromkeys([*report.texts, *found]):
-        suite = _suite(root, file)
+        suite = SubElement(root, "testsuite", name=_text(file))
         for it in found[file]:
             case = _case(suite, f"{it.code} {it.name}, line {it.line}", file)
             kind = "system-out" if it.severity == "note" else "failure"
@@ -28,7 +28,7 @@ def render(report: Report) -> str:
             below.text = _text(heading(it, is_colored=False))
         if not found[file]:
             _case(suite, "no findings", file)
-    suite = _suite(root, "moves")
+    suite = SubElement(root, "testsuite", name="moves")
     case = _case(suite, f"{counted(report.checked, 'move')} checked", report.title)
     if report.is_wrong and root.find(".//failure") is None:
         SubElement(case, "failure", message=_text(report.coverage))
@@ -45,10 +45,6 @@ def render(report: Report) -> str:
         suite.set("skipped", str(sum(1 for _ in suite.iter("skipped"))))
     indent(root)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{tostring(root, encoding="unicode")}\n'
-
-
-def _suite(root: Element, name: str) -> Element:
-    return SubElement(root, "testsuite", name=_text(name))
 
 
 def _case(suite: Element, name: str, place: str) -> Element:

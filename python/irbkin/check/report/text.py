@@ -1,13 +1,37 @@
-"""A report to read in a terminal: a line for each finding, its source line with a caret."""
+"""A report to read in a terminal: a line for each finding, its source line with a caret; a summary
+of routines: nearest limits and singularities, unused names; corrections as a unified diff.
+"""
 
+import difflib
+import math
+import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
+import numpy as np
+
+from irbkin import Robot
+from irbkin._files import shown
 from irbkin._words import visible
+from irbkin.check.codes import UNUSED
 from irbkin.check.findings import Finding
-from irbkin.check.report import Report, excerpt
-from irbkin.check.report.routines import COUNTS, HEADINGS, routines, unused
+from irbkin.check.report import Report, counted, excerpt
+from irbkin.rapid import CheckedMove
 
 STYLES = {"error": "bold red", "warning": "bold yellow", "note": "bold blue"}
+HEADINGS = (
+    "routine", "moves", "assumed", "not checked", "errors", "warnings", "nearest limit",
+    "nearest singularity",
+)  # fmt: skip
+COUNTS = 6
+"""End of the numeric columns, which begin at 1."""
+KINDS = {
+    "robtarget": "target",
+    "jointtarget": "target",
+    "tooldata": "tool",
+    "wobjdata": "work object",
+}
+"""Nouns for data by type; any other unused name is a routine."""
 
 
 def styled(text: str, style: str, is_colored: bool) -> str:
@@ -90,3 +114,74 @@ def _block(found: Finding, report: Report) -> str:
         for number, new in report.corrected(found).items()
     )
     return "\n".join(rows)
+
+
+def routines(report: Report) -> dict[str, list[tuple[str, ...]]]:
+    """Return the cells below `HEADINGS` of each routine that moves, by its file and arm."""
+    counts = Counter((found.file, found.routine or "", found.severity) for found in report.findings)
+    tables: dict[str, list[tuple[str, ...]]] = {}
+    for job, checked in report.programs:
+        groups: dict[tuple[int, str], list[CheckedMove]] = {}
+        for move in checked.moves:
+            groups.setdefault((move.module, move.routine or ""), []).append(move)
+        for (module, routine), moves in groups.items():
+            file = shown(job.program.files[module].path)
+            assumed = sum(move.assumed for move in moves)
+            left = sum(move.unchecked is not None for move in moves)
+            wrong = [counts[file, routine, level] for level in ("error", "warning")]
+            numbers = [str(count or "") for count in (len(moves), assumed, left, *wrong)]
+            near = _nearest(job.robot, [move for move in moves if move.q is not None])
+            tables.setdefault(f"{file} ({job.title})", []).append((routine, *numbers, *near))
+    return tables
+
+
+def unused(report: Report) -> str:
+    """A sentence on unused names; empty without any."""
+    kinds = Counter[str]()
+    for job, checked in report.programs:
+        found = (own for own in checked.findings if own.code == UNUSED)
+        places = [(own.module, own.line, own.column) for own in found]
+        types = {
+            (index, data.line, data.column): data.data_type.lower()
+            for index in {module for module, *_ in places}
+            for data in job.program.modules[index].declarations
+        }
+        kinds.update(KINDS.get(types.get(place, ""), "routine") for place in places)
+    parts = [counted(count, kind) for kind, count in kinds.items()]
+    return f"Nothing in the program names: {', '.join(parts)} (--select {UNUSED})." if parts else ""
+
+
+def _nearest(robot: Robot | None, moves: Sequence[CheckedMove]) -> tuple[str, str]:
+    """The nearest limit and the nearest singularity of the targets of moves, each with its line."""
+    if robot is None or not moves:
+        return "", ""
+    q = np.array([move.q for move in moves])
+    lower, upper = robot.limits.T
+    rooms = np.minimum(q - lower, upper - q)
+    index, joint = np.unravel_index(rooms.argmin(), rooms.shape)
+    limit = f"J{joint + 1} {math.degrees(rooms[index, joint]):.1f} deg, line {moves[index].line}"
+    at = robot.singularity(q)
+    # The shoulder distance is a length: only the two angles are comparable.
+    angles = {"wrist": np.degrees(at.wrist), "elbow": np.degrees(at.elbow)}
+    known = [name for name, own in angles.items() if np.isfinite(own).any()]
+    if not known:
+        return limit, ""
+    name = min(known, key=lambda name: np.nanmin(angles[name]))
+    index = int(np.nanargmin(angles[name]))
+    return limit, f"{name} {angles[name][index]:.1f} deg, line {moves[index].line}"
+
+
+def diff(file: str, before: str, after: str, is_colored: bool) -> str:
+    """Return the diff of a file, which `patch` and `git apply` read unless it has escapes."""
+    file = visible(file)
+    # Lines end with \n alone: a \r before it belongs to the line.
+    old, new = (re.findall(r"[^\n]*\n|[^\n]+", text) for text in (before, after))
+    rows = []
+    for row in difflib.unified_diff(old, new, file, file):
+        line, end, _ = row.partition("\n")
+        line = visible(line.removesuffix("\r")) + "\r" * line.endswith("\r")
+        is_head = row.startswith(("---", "+++"))
+        style = {"+": "green", "-": "red", "@": "note"}.get(row[0])
+        rows.append(styled(line, style, is_colored) if style and not is_head else line)
+        rows.append(end or "\n\\ No newline at end of file\n")
+    return "".join(rows)

@@ -202,25 +202,22 @@ class Program {
     const found = new Map();
     for (const it of this.found) found.set(place(it), [...(found.get(place(it)) ?? []), it]);
     const named = ({ module, line }) => (this.modules.length > 1 ? `${this.modules[module].name.split("/").at(-1)}:${line}` : String(line));
+    const row = (it, className, options, ...cells) => el("tr", {
+      className, "data-module": it.module, "data-line": it.line, ...options,
+    }, ...[named(it), ...cells].map((words) => el("td", {}, words)));
     for (const move of moves.slice(0, MOST_ROWS)) {
       const own = found.get(place(move)) ?? [];
       const worst = SEVERITIES.find((it) => own.some((one) => one.severity === it));
-      rows.push(el("tr", {
-        className: worst ?? "", tabIndex: 0, "data-module": move.module, "data-line": move.line,
-        onclick: () => this.go(move), onkeydown: (event) => event.key === "Enter" && this.go(move),
-      },
-      el("td", {}, named(move)),
-      el("td", {}, `${move.instruction ?? ""} ${move.target}`.trim()),
-      el("td", {}, move.confdata ? move.confdata.join(" ") : ""),
-      el("td", {}, ...own.map((it) => this.said(it)),
-        own.length || !move.unchecked ? "" : "not checked")));
+      const go = () => this.go(move);
+      rows.push(row(
+        move, worst ?? "", { tabIndex: 0, onclick: go, onkeydown: (event) => event.key === "Enter" && go() },
+        `${move.instruction ?? ""} ${move.target}`.trim(), move.confdata?.join(" ") ?? "",
+        own.length || !move.unchecked ? own.map((it) => this.said(it)) : "not checked",
+      ));
     }
     const moving = new Map(moves.map((it) => [place(it), it]));
     for (const it of this.found.filter((one) => !moving.has(place(one))).slice(0, MOST_ROWS)) {
-      rows.push(el("tr", {
-        className: it.severity, "data-module": it.module, "data-line": it.line, onclick: () => this.show(it),
-      }, el("td", {}, named(it)), el("td", {}, ""), el("td", {}, ""),
-      el("td", {}, this.said(it))));
+      rows.push(row(it, it.severity, { onclick: () => this.show(it) }, "", "", this.said(it)));
     }
     this.list.replaceChildren(...rows);
     this.marks = this.found.slice(0, MOST_MARKS).flatMap((it) => {

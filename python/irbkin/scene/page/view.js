@@ -22,7 +22,11 @@ class View {
     this.words = el("div", { className: "words" });
     this.label = el("span", { className: "label", hidden: true });
     host.append(this.canvas, this.words, this.label);
-    this.start();
+    try {
+      this.drawing = new GlDrawing(this.canvas);
+    } catch {
+      this.fall("This browser has no WebGL 2: everything is solved, nothing is drawn.");
+    }
     Object.assign(this, { way: [], frames: [], marks: [], obstacles: [], extra: [], held: null, hover: null });
     Object.assign(this, { quality: 2, count: 0, late: 0 });
     this.pointers = new Map();
@@ -43,14 +47,6 @@ class View {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.ask());
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.resize();
-  }
-
-  start() {
-    try {
-      this.drawing = new GlDrawing(this.canvas);
-    } catch {
-      this.fall("This browser has no WebGL 2: everything is solved, nothing is drawn.");
-    }
   }
 
   fall(words) {

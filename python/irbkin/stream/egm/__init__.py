@@ -1,7 +1,6 @@
 """ABB's Externally Guided Motion (EGM)."""
 
 from irbkin._core import decode, encode
-from irbkin.stream.egm._controller import CYCLE, Controller
 from irbkin.stream.egm._program import rapid_module
 from irbkin.stream.egm._records import (
     EgmData,
@@ -17,7 +16,7 @@ from irbkin.stream.egm._records import (
 )
 from irbkin.stream.egm._server import Server
 from irbkin.stream.egm._session import Feedback, Statistics
-from irbkin.stream.egm._simulated import Simulated, play, simulated
+from irbkin.stream.egm._simulated import CYCLE, Controller, Simulated, play, simulated
 
 __all__ = [
     "CYCLE",

@@ -1,20 +1,56 @@
-"""The answers of a ROS node, without ROS."""
+"""Answers of a ROS node, without ROS: the nodes of ROS 1 and ROS 2 in `ros/` share it.
+
+`Kinematics` reads requests and fills responses of the services of `irbkin_interfaces`: objects with
+these attributes, of ROS 1 (as `geometry_msgs.msg.Pose` of genpy), of ROS 2 (of rosidl), or plain
+structures with the same fields. Numbers of a sequence arrive as a tuple, a list, an `array.array`
+or, of `uint8[]` in ROS 1, as `bytes`. The parameters of a node are the same in ROS 1 and ROS 2.
+
+>>> from types import SimpleNamespace as Structure
+>>> import irbkin, irbkin.ros
+>>> node = irbkin.ros.Kinematics(irbkin.Robot("IRB 1600-6/1.45"))
+>>> beyond = Structure(
+...     position=Structure(x=3.0, y=0.0, z=0.5), orientation=Structure(x=0.0, y=0.0, z=0.0, w=1.0)
+... )
+>>> node.check_pose(Structure(pose=beyond), Structure()).reason
+'wrist center 1550.5 mm beyond reach'
+"""
 
 import contextlib
+import re
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from irbkin._arguments import check_robot
 from irbkin._arrays import Floats, finite, limit_of_each
-from irbkin._core import Robot, Trajectory, retime
-from irbkin.errors import InvalidJointsError, InvalidMotionError, InvalidPoseError, IrbkinError
+from irbkin._core import Robot, Trajectory, pose, retime, to_xyz_wxyz
+from irbkin.errors import (
+    InvalidJointsError,
+    InvalidModelError,
+    InvalidMotionError,
+    InvalidPoseError,
+    IrbkinError,
+)
 from irbkin.freedom import Track
-from irbkin.ros.messages import Message, read_pose, read_poses, write_pose
 
+__all__ = [
+    "PARAMETERS",
+    "IkSolutions",
+    "Kinematics",
+    "Parameter",
+    "kinematics_of",
+    "read_pose",
+    "read_solutions",
+    "service_prefix",
+    "write_pose",
+]
+
+# A message, or a request or response of a service of irbkin_interfaces: its fields are in the .msg
+# and .srv files, which Python's types do not know.
+Message = Any
 # How far a start may exceed a limit [rad], as everywhere: rounding of what was reported there. It
 # is moved to the limit.
 START_TOLERANCE = 1e-6
@@ -22,6 +58,64 @@ START_TOLERANCE = 1e-6
 # A point of a trajectory, of which a node makes a message: positions [rad], velocities [rad/s],
 # accelerations [rad/s^2] and the time from the start [s].
 Point = Callable[[list[float], list[float], list[float], float], Any]
+
+
+class IkSolutions(NamedTuple):
+    """The solutions in the response of an IK service."""
+
+    q: Floats
+    """Joint angles [rad], shape (k, n), inside the limits or not."""
+    slot: npt.NDArray[np.uint8]
+    """Slot of each, shape (k,)."""
+    status: npt.NDArray[np.uint8]
+    """`irbkin.Status` of each, shape (k,)."""
+
+
+def read_pose(message: Message) -> Floats:
+    """Return the homogeneous matrix of a `geometry_msgs/Pose`, shape (4, 4).
+
+    Raises:
+        InvalidPoseError: A number is not finite, or the quaternion's norm is not one.
+    """
+    p, o = message.position, message.orientation
+    return pose([p.x, p.y, p.z], xyzw=[o.x, o.y, o.z, o.w])
+
+
+def read_poses(messages: Sequence[Message]) -> Floats:
+    """As `read_pose` of many, shape (m, 4, 4); an error has the index of the first."""
+    p = [[m.position.x, m.position.y, m.position.z] for m in messages]
+    o = [[m.orientation.x, m.orientation.y, m.orientation.z, m.orientation.w] for m in messages]
+    return pose(p, xyzw=o) if p else np.empty((0, 4, 4))
+
+
+def write_pose(T: npt.ArrayLike, message: Message) -> None:
+    """Write a homogeneous matrix into a `geometry_msgs/Pose`."""
+    xyz, wxyz = to_xyz_wxyz(T)
+    p, o = message.position, message.orientation
+    p.x, p.y, p.z = xyz.tolist()
+    o.w, o.x, o.y, o.z = wxyz.tolist()
+
+
+def read_solutions(response: Message) -> IkSolutions:
+    """Return the solutions of the response of an IK service, of ROS 1 or ROS 2, as arrays.
+
+    Args:
+        response: `irbkin_interfaces/IK` response: its `joints`, `slots` and `statuses`.
+
+    Raises:
+        ValueError: The lengths do not fit together.
+    """
+    joints: Sequence[float] = response.joints
+    # `bytes` in ROS 1, `array.array` in ROS 2; both give integers when iterated.
+    fields = response.slots, response.statuses
+    slots, statuses = (np.frombuffer(bytes(field), dtype=np.uint8) for field in fields)
+    if len(slots) != len(statuses) or (len(joints) % len(slots) if len(slots) else len(joints)):
+        raise ValueError(
+            f"response has {len(joints)} joints, {len(slots)} slots and {len(statuses)} statuses: "
+            "there must be one slot, one status and as many joints as the arm has a solution"
+        )
+    q = np.asarray(joints, dtype=np.float64).reshape(len(slots), -1 if len(slots) else 0)
+    return IkSolutions(q, slots, statuses)
 
 
 class Kinematics:
@@ -152,7 +246,14 @@ class Kinematics:
                     f"path has {len(poses)} poses, a trajectory needs at least 2"
                 )
             trajectory = self._planned(poses, request)
-            self._write_trajectory(trajectory, response.trajectory, point)
+            message = response.trajectory
+            message.header.frame_id = self.base_frame
+            track = [] if self._track is None else [self._track_name]
+            message.joint_names = [*self.joint_names, *track]
+            rows = (trajectory.q, trajectory.dq, trajectory.ddq, trajectory.t)
+            message.points = [
+                point(*row) for row in zip(*(part.tolist() for part in rows), strict=True)
+            ]
             response.message = f"{len(poses)} poses in {trajectory.duration:.3f} s"
         return response
 
@@ -210,15 +311,6 @@ class Kinematics:
             return retime(q, velocity, acceleration)
         return retime(q, velocity, acceleration, T=T, max_tool_speed=request.max_tool_speed)
 
-    def _write_trajectory(self, trajectory: Trajectory, message: Message, point: Point) -> None:
-        message.header.frame_id = self.base_frame
-        track = [] if self._track is None else [self._track_name]
-        message.joint_names = [*self.joint_names, *track]
-        rows = (trajectory.q, trajectory.dq, trajectory.ddq, trajectory.t)
-        message.points = [
-            point(*row) for row in zip(*(part.tolist() for part in rows), strict=True)
-        ]
-
 
 def _start(start: npt.ArrayLike | None, robot: Robot) -> Floats:
     """A joint vector inside the limits; zeros, moved inside them, when not given."""
@@ -255,3 +347,134 @@ def _answered(response: Message) -> Iterator[None]:
 def _vector(values: Sequence[float]) -> Floats:
     """Numbers of a sequence; a tuple in ROS 1, an `array.array` in ROS 2."""
     return np.asarray(values, dtype=np.float64)
+
+
+class Parameter(NamedTuple):
+    """A parameter of a node. An empty value stands for none."""
+
+    name: str
+    kind: type[str] | type[float]
+    """str, or float for an array of numbers."""
+    is_array: bool
+    default: str
+    """Its default as text; "" for none."""
+    description: str
+    """Its meaning, with the unit."""
+
+
+def _text(name: str, default: str, description: str) -> Parameter:
+    return Parameter(name, str, False, default, description)
+
+
+def _numbers(name: str, description: str) -> Parameter:
+    return Parameter(name, float, True, "", description)
+
+
+PARAMETERS = (
+    _text("robot", "", "Catalog name of the robot, such as IRB 1600-6/1.45"),
+    _text("robot_description", "", "Text or path of a URDF, in place of robot"),
+    _text("tip_link", "", "Link of robot_description whose poses are given; its only tip if empty"),
+    _text("base_frame", "base_link", "Frame of poses; the base link of robot_description"),
+    _numbers("tool", "Tool center point in the flange: x y z [m] and quaternion x y z w"),
+    Parameter(
+        "joint_names",
+        str,
+        True,
+        "",
+        "Names of the joints; if empty as in robot_description, else joint_1 ..",
+    ),
+    _numbers("start", "Joints to which the first target's solution is near [rad]; zeros if empty"),
+    _numbers("weights", "Cost of moving each joint; ones if empty"),
+    _numbers("max_velocity", "Limits of planned paths [rad/s]; the robot's if empty"),
+    _numbers("max_acceleration", "Limits of planned paths [rad/s^2]; plan_path needs them"),
+    _numbers(
+        "track",
+        "Track under the robot: its direction x y z, lower and upper end [m], limits of "
+        "velocity [m/s] and acceleration [m/s^2]; none if empty",
+    ),
+    _text("track_name", "track", "Name of the track in planned trajectories"),
+    _text("service_prefix", "", "Of the names of services; irb1600_kinematics for an IRB 1600"),
+)
+
+
+def kinematics_of(values: Mapping[str, Any]) -> Kinematics:
+    """Return the answers of a node with these parameters.
+
+    Args:
+        values: Values of `PARAMETERS` by name; one that is missing has its default.
+
+    Raises:
+        IrbkinError: A value is invalid; the message names the parameter.
+    """
+    read = {parameter.name: _value(parameter, values) for parameter in PARAMETERS}
+    base_frame, prefix = read["base_frame"], read["service_prefix"]
+    if prefix and not re.fullmatch(r"/?[A-Za-z]\w*(/[A-Za-z]\w*)*", prefix, re.ASCII):
+        raise IrbkinError(
+            f"service_prefix is {prefix!r}, it must be a name: letters, digits and underscores, a "
+            "letter first"
+        )
+    robot = _robot(read)
+    if len(read["tool"]):
+        tool = finite(read["tool"], "tool", (7,), InvalidPoseError)
+        robot = robot.with_tool(pose(tool[:3], xyzw=tool[3:]))
+    options = ("joint_names", "start", "weights", "max_velocity", "max_acceleration")
+    given = {name: read[name] for name in options if len(read[name])}
+    if len(read["track"]):
+        x, y, z, lower, upper, velocity, acceleration = finite(
+            read["track"], "track", (7,), InvalidMotionError
+        ).tolist()
+        if not (velocity > 0.0 and acceleration > 0.0 and lower < upper and (x, y, z) != (0, 0, 0)):
+            raise InvalidMotionError(
+                f"track is {read['track']!r}: its direction must have a length, its ends lower < "
+                "upper, its limits must be positive"
+            )
+        given["track"] = Track((x, y, z), lower, upper, max_velocity=velocity)
+        given["track_acceleration"] = acceleration
+        given["track_name"] = read["track_name"]
+    return Kinematics(robot, base_frame=base_frame, **given)
+
+
+def service_prefix(robot: Robot) -> str:
+    """Return the first part of the names of a robot's services: "irb1600_kinematics".
+
+    It is the type without its variant: what is before the first "-", "/" or parenthesis.
+    """
+    check_robot(robot)
+    kind = re.split(r"[-/(]", robot.name.lower())[0]
+    kind = re.sub(r"[^a-z0-9_]", "", kind)
+    return f"{kind if re.match('[a-z]', kind) else f'robot{kind}'}_kinematics"
+
+
+def _robot(read: Mapping[str, Any]) -> Robot:
+    if read["robot"]:
+        if read["robot_description"]:
+            raise InvalidModelError("robot and robot_description are both given: give one")
+        return Robot(read["robot"])
+    if not read["robot_description"]:
+        raise InvalidModelError(
+            'robot is empty: give a catalog name such as "IRB 1600-6/1.45", or robot_description'
+        )
+    try:
+        return Robot.from_urdf(
+            read["robot_description"], read["base_frame"] or None, read["tip_link"] or None
+        )
+    except OSError as error:
+        raise InvalidModelError(f"robot_description: {error}") from error
+
+
+def _value(parameter: Parameter, values: Mapping[str, Any]) -> Any:
+    """The value of a parameter, checked to be of its type."""
+    value = values.get(parameter.name)
+    if value is None:
+        return [] if parameter.is_array else parameter.default
+    if not parameter.is_array:
+        if not isinstance(value, str):
+            raise IrbkinError(f"{parameter.name} is {value!r}, it must be a text")
+        return value
+    wanted = "texts" if parameter.kind is str else "numbers"
+    is_sequence = isinstance(value, Sequence | np.ndarray) or hasattr(value, "tolist")
+    elements = list(value) if is_sequence and not isinstance(value, str | bytes) else [None]
+    fits = (str,) if parameter.kind is str else (int, float)
+    if not all(isinstance(element, fits) and element is not True for element in elements):
+        raise IrbkinError(f"{parameter.name} is {value!r}, it must be an array of {wanted}")
+    return elements
