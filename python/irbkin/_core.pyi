@@ -127,6 +127,7 @@ __all__ = [
     "parse_module",
     "path_spline",
     "polyline",
+    "port_program",
     "pose",
     "read_module",
     "read_modules",
@@ -1499,6 +1500,16 @@ def check_program(
     carried: Mapping[str, Shape | Sequence[Shape]] | None = None,
     tasks: Sequence[tuple[str, Sequence[Module]]] | None = None,
 ) -> Checked: ...
+def port_program(
+    robot: Robot,
+    modules: Sequence[Module],
+    *,
+    source: Robot | None = None,
+    units: Sequence[tuple[str, bool, bool, Sequence[tuple[int, npt.ArrayLike, bool]]]]
+    | None = None,
+    last_values: bool = False,
+    tools: Mapping[str | None, ToolData | npt.ArrayLike] | None = None,
+) -> tuple[list[tuple[int, int, int, str]], int, list[tuple[int, int, int, str]]]: ...
 def check_codes() -> list[tuple[str, str, str, bool]]: ...
 def instructions() -> list[tuple[str, str, str]]: ...
 def motion(

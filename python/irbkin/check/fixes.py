@@ -12,7 +12,7 @@ from irbkin.check.findings import Finding
 from irbkin.check.jobs import Job
 from irbkin.errors import IrbkinError
 from irbkin.rapid import Checked, ModuleFile
-from irbkin.rapid.program import program_of
+from irbkin.rapid.program import edited, program_of
 
 PASSES = 10
 """Iterations of correction and check, beyond one for each file."""
@@ -96,24 +96,11 @@ def _edited(job: Job, edits: Edits) -> Job:
     return replace(job, program=replace(program_of(files), findings=program.findings))
 
 
-def edited(source: str, edits: Mapping[int, tuple[int, str]]) -> str:
-    """A text after edits."""
-    content, parts, copied = source.encode(), [], 0
-    for begin, (end, text) in sorted(edits.items()):
-        parts += [content[copied:begin], text.encode()]
-        copied = end
-    return b"".join([*parts, content[copied:]]).decode()
-
-
 def write(file: ModuleFile, before: str, after: str, say: Callable[[str], object]) -> None:
     """Overwrite a file with its corrected text; report a checksum that no longer matches."""
-    if file.encoded(before) != file.content:
-        raise IrbkinError(
-            f"{shown(file.path)}: has bytes that are no {file.encoding} text, so it cannot be "
-            "written back as it is: repair them first"
-        )
+    content = file.rewritten(before, after)
     with replaced(file.path, file.content) as stream:
-        stream.write(file.encoded(after))
+        stream.write(content)
     if hashes := _checksum_of(file.path):
         say(f"{file.path}: is changed, its hash in {hashes} no longer agrees with it")
 

@@ -24,6 +24,7 @@ VERBS = {
     "lsp": "serve findings, hovers and corrections to an editor, while one types",
     "rule": "explain a code of check",
     "diff": "find what differs between two backups: data, moves, targets",
+    "port": "solve the confdata of a program anew for another arm",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
     "plot": "write a picture of an arm",
     "view": "show an arm, a program or a scene in the browser",

@@ -137,6 +137,11 @@ class Parser(argparse.ArgumentParser):
         words = f"{frame}: x y z [mm], then w x y z or rz ry rx [deg] if turned; or a {kind}"
         self.add(f"--{name}", nargs="+", type=number_or_data, metavar="N", help=words)
 
+    def add_tools(self) -> None:
+        """Tools of a program."""
+        words = "TCP of a tool that nothing declares: as of ik; without NAME= of all others"
+        self.add("--tool", nargs="+", action="append", metavar=("[NAME=]X", "Y Z"), help=words)
+
     def add_wobj(self) -> None:
         """The work object of poses."""
         self.add_frame("wobj", "frame of the poses in the world", "wobjdata")

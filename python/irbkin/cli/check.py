@@ -79,8 +79,7 @@ def add_arm(parser: Parser) -> None:
     bounds, words = ("LOWER", "UPPER"), "limits of an axis [deg]; may be repeated"
     add("--limits", nargs=3, type=number, action="append", metavar=("AXIS", *bounds), help=words)
     add("--linkage-limits", nargs=2, type=number, metavar=bounds, help="of q3 - q2 [deg]")
-    words = "TCP of a tool that nothing declares: as of ik; without NAME= of all others"
-    add("--tool", nargs="+", action="append", metavar=("[NAME=]X", "Y Z"), help=words)
+    parser.add_tools()
     add("--last-values", action="store_true", help="a PERS has its saved value, as in a backup")
     parser.add_cell()
     codes: Any = {"metavar": "CODES", "type": lambda text: text.split(",")}

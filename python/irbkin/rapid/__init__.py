@@ -52,6 +52,7 @@ from irbkin._core import (
 )
 from irbkin.errors import RapidError
 from irbkin.rapid.plans import plan_module, plan_targets
+from irbkin.rapid.porting import LeftMove, Ported, port
 from irbkin.rapid.program import FileFinding, ModuleFile, Program, load_program
 
 __all__ = [
@@ -63,6 +64,7 @@ __all__ = [
     "FileFinding",
     "Finding",
     "JointTarget",
+    "LeftMove",
     "LoadData",
     "Module",
     "ModuleFile",
@@ -70,6 +72,7 @@ __all__ = [
     "MotionSettings",
     "Move",
     "Pose",
+    "Ported",
     "Program",
     "RobTarget",
     "Routine",
@@ -93,6 +96,7 @@ __all__ = [
     "parse",
     "plan_module",
     "plan_targets",
+    "port",
 ]
 
 
@@ -117,4 +121,4 @@ def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
 
 def __dir__() -> list[str]:
     """List what the module offers."""
-    return sorted({*__all__, "plans", "program", *(n for n in globals() if n.startswith("__"))})
+    return sorted({*__all__, "plans", "porting", "program", *(n for n in globals() if n.startswith("__"))})

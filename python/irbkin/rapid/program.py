@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -10,7 +10,8 @@ from typing import Any
 
 from irbkin import Robot
 from irbkin._core import Checked, Module, check_program, read_modules
-from irbkin._files import STREAMS, is_plain, read
+from irbkin._files import STREAMS, is_plain, read, shown
+from irbkin.errors import IrbkinError
 
 SYSTEM = (".sys", ".sysx")
 """Endings of files of modules of the system."""
@@ -74,6 +75,19 @@ class ModuleFile:
         """
         return self.mark + text.encode(self.encoding)
 
+    def rewritten(self, before: str, after: str) -> bytes:
+        """Return the bytes of this file with another text in place of its own.
+
+        Raises:
+            IrbkinError: It has bytes that are no text.
+        """
+        if self.encoded(before) != self.content:
+            raise IrbkinError(
+                f"{shown(self.path)}: has bytes that are no {self.encoding} text, so it cannot be "
+                "written back as it is: repair them first"
+            )
+        return self.encoded(after)
+
 
 @dataclass(frozen=True, eq=False)
 class Program:
@@ -107,6 +121,15 @@ class Program:
         """Return the numbers of modules, moves and findings."""
         moves = sum(len(module.moves) for module in self.modules)
         return f"Program({len(self.modules)} modules, {moves} moves, {len(self.findings)} findings)"
+
+
+def edited(source: str, edits: Mapping[int, tuple[int, str]]) -> str:
+    """Return a text after edits: their ends and their texts, by the bytes at which they begin."""
+    content, parts, copied = source.encode(), [], 0
+    for begin, (end, text) in sorted(edits.items()):
+        parts += [content[copied:begin], text.encode()]
+        copied = end
+    return b"".join([*parts, content[copied:]]).decode()
 
 
 def load_program(path: str | PathLike[str] | Iterable[str | PathLike[str]]) -> Program:

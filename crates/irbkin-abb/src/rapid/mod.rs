@@ -38,6 +38,7 @@
 //!    values that arguments, assignments and loops give them.
 //! 9. `motion`: a routine as one motion, followed, timed and checked.
 //! 10. `check`: all moves of a program checked, with corrections of confdata.
+//! 11. `port`: the confdata of a program for another arm.
 
 mod calc;
 mod check;
@@ -45,6 +46,7 @@ mod data;
 mod expression;
 mod module;
 mod motion;
+mod port;
 mod program;
 mod resolve;
 mod statements;
@@ -76,6 +78,7 @@ pub use self::module::read::{decode, parse, parse_record, read};
 pub use self::module::write::{NewValue, rewrite};
 pub use self::motion::drive::MotionOptions;
 pub use self::motion::routine::{MotionMove, RoutineMotion, motion};
+pub use self::port::{LeftMove, Ported, port};
 pub use self::text::fault::RapidFault;
 
 /// What the faces use of RAPID besides its public names.
@@ -83,6 +86,7 @@ pub use self::text::fault::RapidFault;
 pub mod internal {
     pub use super::calc::frames::rapid_pose;
     pub use super::calc::target::joint_target;
+    pub use super::data::records::GivenTools;
     pub use super::data::table::Entry;
     pub use super::module::read::read_with;
     pub use super::statements::faults::Faults;

@@ -9,7 +9,7 @@ use pyo3::types::PyTuple;
 use super::checked::{Checked, CheckedMove, Finding};
 use super::class;
 use super::module::{RapidModule, close_names};
-use crate::arm::on;
+use crate::arm::{SharedArm, on};
 use crate::bodies::Shapes;
 use crate::cell::PyCell;
 use crate::errors::{Fault, exception};
@@ -17,8 +17,9 @@ use crate::robot::PyRobot;
 use crate::signals::detached_until;
 use crate::targets::{read_frame, read_pose};
 use crate::trajectories::read_limits;
+use irbkin::Robot;
 use irbkin_abb::rapid;
-use irbkin_abb::rapid::internal::rapid_pose;
+use irbkin_abb::rapid::internal::{GivenTools, rapid_pose};
 use irbkin_abb::rapid::{
     CheckOptions, Code, Module, MotionOptions, ToolData, Unit, UnitAxis, Units,
 };
@@ -130,7 +131,7 @@ pub(crate) fn check_program<'py>(
     cell: Option<&Bound<'py, PyCell>>,
     units: Option<Vec<GivenUnit<'py>>>,
     last_values: bool,
-    tools: Option<BTreeMap<Option<String>, Bound<'py, PyAny>>>,
+    tools: Option<NamedTools<'py>>,
     whole: Option<bool>,
     of_system: Option<Vec<usize>>,
     signals: Option<Vec<String>>,
@@ -138,13 +139,10 @@ pub(crate) fn check_program<'py>(
     tasks: Option<Vec<(String, Vec<Bound<'py, RapidModule>>)>>,
 ) -> PyResult<Checked> {
     let py = robot.py();
-    let units = units.unwrap_or_default().into_iter().map(read_unit);
-    let units = Units(units.collect::<PyResult<Vec<_>>>()?);
+    let units = read_units(units)?;
     let carried = carried.into_iter().flatten();
     let carried = carried.map(|(name, shapes)| (name.to_lowercase(), shapes.read())).collect();
-    let tools = tools.into_iter().flatten();
-    let tools = tools.map(|(name, it)| Ok((name.map(|name| name.to_lowercase()), read_tool(&it)?)));
-    let tools = tools.collect::<PyResult<BTreeMap<_, _>>>()?;
+    let tools = read_tools(tools)?;
     let signals = signals.map(|all| all.iter().map(|it| it.to_lowercase()).collect());
     let tasks = tasks.unwrap_or_default();
     let tasks = tasks.iter().map(|(name, modules)| {
@@ -170,6 +168,82 @@ pub(crate) fn check_program<'py>(
         };
         checked(py, arm, &modules, options)
     })
+}
+
+/// Solve the confdata of a program anew for another arm.
+///
+/// Args:
+///     robot: The arm. Work objects are given in the world, in which its base is.
+///     modules: As of `check_program`.
+///     source: The arm before, to whose postures the new ones are the nearest; without it each is
+///         the nearest to the one at the target before.
+///     units: As of `check_program`.
+///     last_values: As of `check_program`.
+///     tools: As of `check_program`.
+///
+/// Returns:
+///     The edits: modules, begins and ends in bytes, texts; how many confdata they change; the moves
+///     that are not ported: modules, lines, columns, messages.
+///
+/// Raises:
+///     InvalidModelError: As of `check`, of either arm; one with seven joints.
+#[pyfunction]
+#[pyo3(signature = (robot, modules, *, source=None, units=None, last_values=false, tools=None))]
+#[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
+pub(crate) fn port_program<'py>(
+    robot: &Bound<'py, PyRobot>,
+    modules: Vec<Bound<'py, RapidModule>>,
+    source: Option<&Bound<'py, PyRobot>>,
+    units: Option<Vec<GivenUnit<'py>>>,
+    last_values: bool,
+    tools: Option<NamedTools<'py>>,
+) -> PyResult<(Vec<PlacedText>, usize, Vec<PlacedText>)> {
+    let units = read_units(units)?;
+    let tools = read_tools(tools)?;
+    let arm = six_joints(robot, "robot")?;
+    let source = source.map(|it| six_joints(it, "source")).transpose()?;
+    let texts = modules.iter().map(|it| (&it.get().module, it.get().source.as_str()));
+    let texts: Vec<_> = texts.collect();
+    let ported = detached_until(robot.py(), |interrupt| {
+        let options = CheckOptions {
+            units: Some(&units),
+            takes_last: last_values,
+            tools: Some(&tools),
+            interrupt,
+            ..CheckOptions::default()
+        };
+        rapid::port(arm, source, &texts, &options)
+    })?
+    .map_err(exception)?;
+    let edits = ported.edits.into_iter().map(|it| (it.module, it.span.start, it.span.end, it.text));
+    let left = ported.left.into_iter().map(|it| (it.module, it.line, it.column, it.message));
+    Ok((edits.collect(), ported.changed, left.collect()))
+}
+
+fn six_joints<'a>(robot: &'a Bound<'_, PyRobot>, argument: &str) -> PyResult<&'a Robot<6>> {
+    match robot.get().arm() {
+        SharedArm::Six(arm) => Ok(arm),
+        SharedArm::Seven(arm) => Err(Fault::Model.error(format_args!(
+            "{argument} is {}, which has seven joints: programs of six are ported",
+            arm.name()
+        ))),
+    }
+}
+
+/// A module, two numbers of a place in it, and words.
+type PlacedText = (usize, usize, usize, String);
+
+/// Tools as Python gives them, by their names.
+type NamedTools<'py> = BTreeMap<Option<String>, Bound<'py, PyAny>>;
+
+fn read_tools(tools: Option<NamedTools<'_>>) -> PyResult<GivenTools> {
+    let tools = tools.into_iter().flatten();
+    tools.map(|(name, it)| Ok((name.map(|name| name.to_lowercase()), read_tool(&it)?))).collect()
+}
+
+fn read_units(units: Option<Vec<GivenUnit<'_>>>) -> PyResult<Units> {
+    let units = units.unwrap_or_default().into_iter().map(read_unit);
+    Ok(Units(units.collect::<PyResult<Vec<_>>>()?))
 }
 
 /// A unit as Python gives it.

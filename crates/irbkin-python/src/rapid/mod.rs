@@ -38,7 +38,7 @@ pub(super) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
         text::parse, text::parse_module, text::read_module, text::read_modules,
         text::differing_names, text::dump, calc::calc_joint_t, calc::calc_rob_t,
         calc::calc_moves, calc::calc_targets, routine_motion::motion, checks::check,
-        checks::check_program, checks::check_codes, instructions::instructions,
+        checks::check_program, checks::port_program, checks::check_codes, instructions::instructions,
     ]);
     PyMapping::register::<RapidModule>(module.py())
 }

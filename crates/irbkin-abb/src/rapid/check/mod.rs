@@ -3,7 +3,7 @@
 pub(super) mod checker;
 mod corners;
 mod findings;
-mod fixes;
+pub(super) mod fixes;
 mod loading;
 pub(super) mod tasks;
 pub(super) mod undeclared;

@@ -179,7 +179,7 @@ impl ToolData {
 }
 
 /// The type of [`tools`](crate::rapid::CheckOptions::tools).
-pub(in crate::rapid) type GivenTools = BTreeMap<Option<String>, ToolData>;
+pub type GivenTools = BTreeMap<Option<String>, ToolData>;
 
 impl WobjData {
     /// RAPID's `wobj0`, the world.

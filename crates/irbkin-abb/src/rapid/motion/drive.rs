@@ -108,20 +108,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         interrupt: Interrupt<'a>,
         finish: &mut dyn FnMut(&mut Self, usize) -> Result<(), Error>,
     ) -> Result<(Samples<N>, Vec<Made<N>>), Error> {
-        let mut drive = Self {
-            robot,
-            flange,
-            goals,
-            spacing: Spacing::step(options.step, options.turn)?,
-            findings,
-            samples: Samples::default(),
-            made: Vec::with_capacity(goals.len()),
-            here: None,
-            entry: None,
-            is_lost: false,
-            other: None,
-            interrupt,
-        };
+        let mut drive = Self::new([robot, flange], goals, options, findings, interrupt)?;
         if let Some(start) = options.start {
             drive.samples.push(start, [0.0; 2]);
             drive.samples.first = 1;
@@ -147,6 +134,46 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
             finish(&mut drive, last)?;
         }
         Ok((drive.samples, drive.made))
+    }
+
+    fn new(
+        [robot, flange]: [&'a Robot<N>; 2],
+        goals: &'a [Goal<'m, N>],
+        options: &MotionOptions<N>,
+        findings: &'a mut Vec<Finding>,
+        interrupt: Interrupt<'a>,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            robot,
+            flange,
+            goals,
+            spacing: Spacing::step(options.step, options.turn)?,
+            findings,
+            samples: Samples::default(),
+            made: Vec::new(),
+            here: None,
+            entry: None,
+            is_lost: false,
+            other: None,
+            interrupt,
+        })
+    }
+
+    /// The joints at the end of a line or an arc from the joints at its start; `None` if it cannot
+    /// be followed.
+    pub(in crate::rapid) fn end_of(
+        robots: [&'a Robot<N>; 2],
+        goals: &'a [Goal<'m, N>],
+        index: usize,
+        from: &[f64; N],
+        options: &MotionOptions<N>,
+        interrupt: Interrupt<'a>,
+    ) -> Result<Option<[f64; N]>, Error> {
+        let Some(Place::Tool(end, _)) = goals[index].place else { return Ok(None) };
+        let mut findings = Vec::new();
+        let mut drive = Drive::new(robots, goals, options, &mut findings, interrupt)?;
+        let here = Here { q: *from, flange: robots[1].fk(from) };
+        Ok(drive.follow(index, &end, &here, None)?.ok().and_then(|made| made.q))
     }
 
     pub(super) fn found(&mut self, index: usize, finding: Finding) {

@@ -4,5 +4,5 @@ pub(super) mod drive;
 pub(super) mod goal;
 pub(super) mod joints;
 pub(super) mod routine;
-mod thresholds;
+pub(super) mod thresholds;
 mod write;

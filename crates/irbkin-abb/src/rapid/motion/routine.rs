@@ -209,7 +209,7 @@ fn check_limits<const N: usize>(
 }
 
 /// The moves as goals; what is wrong with them, and what is not followed, is found.
-fn goals<'m, const N: usize>(
+pub(in crate::rapid) fn goals<'m, const N: usize>(
     robot: &Robot<N>,
     steps: &'m [Step<'m>],
     units: Option<&Units>,

@@ -1,0 +1,76 @@
+"""The confdata of a program are solved anew for another arm, along its moves and nearest to the
+postures of the arm before; nothing else changes, not one byte. The files are one program, or a
+backup with one robot, which knows --from. They are written into a new folder and checked there.
+What cannot be ported is listed and stays as it is: joint angles, targets that are not reached or
+calculated, external axes of unknown units. Options that are not given are taken from irbkin.toml or
+pyproject.toml. Exit codes: 0 all is ported, 1 some moves are left, 2 wrong usage.
+
+Examples:
+  irbkin port "IRB 2600-12/1.65" cell.mod tools.sys --from "IRB 1600-6/1.45" --to ported
+  irbkin port "IRB 1660ID-6/1.55" backups/cell_3 --to ported
+  irbkin diff "IRB 2600-12/1.65" cell ported
+"""
+
+import argparse
+from dataclasses import replace
+
+from irbkin._arm_options import robot_of
+from irbkin._files import shown
+from irbkin._words import counted, visible
+from irbkin.check.checker import Checker
+from irbkin.check.jobs import backup_of, job_of_files, jobs_of_backup
+from irbkin.check.report import rendered, report_of
+from irbkin.check.settings import settings_of
+from irbkin.cli.arguments import ROBOT_HELP, Parser, read_tools
+from irbkin.cli.errors import FINE, FOUND, CommandError, complain
+from irbkin.cli.files import STDIN
+from irbkin.rapid import port
+
+
+def add_arguments(parser: Parser) -> None:
+    add = parser.add
+    add("arm", metavar="ARM", help=f"the new arm: {ROBOT_HELP}")
+    add("files", metavar="FILE", nargs="+", help="modules, folders, or a backup")
+    add("--from", dest="robot", metavar="ARM", help="the arm before, which a backup knows")
+    add("--to", metavar="DIR", required=True, help="a new or an empty folder")
+    parser.add_frame("base", "base of both arms in the world", "pose")
+    parser.add_tools()
+
+
+def run(arguments: argparse.Namespace) -> int:
+    names: list[str] = arguments.files
+    if STDIN in names:
+        raise CommandError("port takes files, not stdin")
+    settings = settings_of(names)
+    given = {name: it for name, it in vars(arguments).items() if it is not None}
+    options = {**settings.options, **given}
+    if arguments.tool:
+        options["tool"] = read_tools(arguments.tool)
+    checker = Checker(options, settings)
+    frames = {"robot": arguments.arm, "base": options.get("base")}
+    robot = robot_of(frames, complain)
+    source = robot_of({**options, "tool": None}, complain) if "robot" in options else None
+    if source is None and (backup := backup_of(names)):
+        jobs, _ = jobs_of_backup(backup, names)
+        if len(jobs) > 1:
+            titles = ", ".join(job.title for job in jobs)
+            raise CommandError(f"one program is ported, give the files of one of: {titles}")
+        (job,) = jobs
+        source = job.robot
+        if source is not None and "base" not in options:
+            robot = robot.with_base(source.base)
+    else:
+        job = job_of_files(source or robot, names, settings)
+    if not any(module.moves for module in job.program.modules):
+        raise CommandError(f"{' and '.join(names)}: no instruction moves, nothing is ported")
+    saved = {"units": job.units, "last_values": job.is_saved, "tools": checker.tools}
+    ported = port(job.program, robot, to=arguments.to, source=source, **saved)
+    before = f" instead of {source.name}" if source else ""
+    files = counted(len(ported.program.files), "file")
+    print(f"{robot.name}{before}: {files} in {shown(arguments.to)}, {ported.changed} new confdata")
+    for left in ported.left:
+        print(visible(f"{shown(left.file)}:{left.line}:{left.column}: {left.message}"))
+    print(f"{counted(len(ported.left), 'move')} left as before\n")
+    checked = replace(job, robot=robot, program=ported.program, title=robot.name, given=None)
+    print(rendered(report_of(checker, [checked], []), "concise"), end="")
+    return FOUND if ported.left else FINE
