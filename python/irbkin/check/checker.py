@@ -38,7 +38,7 @@ class Checker:
         if not 0.0 < step < float("inf"):
             raise IrbkinError(f"--step must be positive and finite [mm], got {step}")
         self.cell: Cell | None
-        self.cell, self._shapes = read(options["cell"]) if "cell" in options else (None, {})
+        self.cell, self.shapes = read(options["cell"]) if "cell" in options else (None, {})
         self._cell = os.path.basename(options.get("cell", ""))
         tools = options.get("tool", {})
         self.tools = tools if isinstance(tools, Mapping) else {None: frame(tools, "--tool")}
@@ -57,7 +57,7 @@ class Checker:
         if job.robot is None:
             return Checked((), ()), found
         is_unread = any(own.code == UNREAD for own in program.findings)
-        for name, shapes in self._shapes.items():
+        for name, shapes in self.shapes.items():
             try:
                 job.robot.with_attached(shapes)
             except InvalidModelError as error:
@@ -70,10 +70,10 @@ class Checker:
             "signals": [*job.signals] or None,
             "tasks": job.tasks,
         }
-        checked = program.check(job.robot, **self._options, **given, carried=self._shapes)
+        checked = program.check(job.robot, **self._options, **given, carried=self.shapes)
         files = [file.path for file in program.files]
         is_silent = _silenced(program)
-        of_tools = tool_findings(program, job.robot, self._cell, self._shapes)
+        of_tools = tool_findings(program, job.robot, self._cell, self.shapes)
         found += [
             self._of_move(own, job, files)
             for own in (*of_tools, *checked.findings)

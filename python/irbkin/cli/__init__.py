@@ -21,6 +21,7 @@ VERBS = {
     "fk": "pose of the tool of joint angles",
     "ik": "joint angles of a pose: all solutions, the nearest, or the one of a confdata",
     "check": "find what is wrong with the moves of RAPID modules, and correct confdata",
+    "arms": "which arms of the catalog can run a program, and from which stand",
     "lsp": "serve findings, hovers and corrections to an editor, while one types",
     "rule": "explain a code of check",
     "diff": "find what differs between two backups: data, moves, targets",

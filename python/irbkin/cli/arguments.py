@@ -100,7 +100,7 @@ class Parser(argparse.ArgumentParser):
         given, rest = options.parse_known_args(words)
         if given.robot is not None:
             return [given.robot, *rest]
-        if any(map(_is_arm, words)) or (words and _is_meant(words[0])):
+        if any(map(is_arm, words)) or (words and _is_meant(words[0])):
             return words
         if robot := os.environ.get("IRBKIN_ROBOT"):
             return [robot, *words]
@@ -138,7 +138,7 @@ class Parser(argparse.ArgumentParser):
         self.add(f"--{name}", nargs="+", type=number_or_data, metavar="N", help=words)
 
     def add_tools(self) -> None:
-        """Tools of a program."""
+        """The tools of a program, which `read_tools` reads."""
         words = "TCP of a tool that nothing declares: as of ik; without NAME= of all others"
         self.add("--tool", nargs="+", action="append", metavar=("[NAME=]X", "Y Z"), help=words)
 
@@ -164,7 +164,8 @@ class Parser(argparse.ArgumentParser):
         self.add("-o", "--output", metavar="FILE", help=f"{words}.txt or none for a table")
 
 
-def _is_arm(word: str) -> bool:
+def is_arm(word: str) -> bool:
+    """Whether a word is a name in the catalog, or a file of an arm."""
     from irbkin import catalog_entry
 
     try:

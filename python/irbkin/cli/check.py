@@ -150,7 +150,7 @@ def _check(arguments: argparse.Namespace) -> int:
         jobs, left_open = [job_of_files(robot, files, settings)], []
     if not any(job.program.files or job.program.findings for job in jobs):
         complain(f"{' and '.join(names)}: excluded by {settings.file}: nothing is checked")
-    _check_tools(checker.tools, jobs)
+    check_tools(checker.tools, jobs)
     texts: list[Text] = []
     fixed = Counter[str]()
     if arguments.fix or arguments.diff:
@@ -180,7 +180,7 @@ def _check(arguments: argparse.Namespace) -> int:
     return FOUND if report.is_wrong else FINE
 
 
-def _check_tools(tools: Iterable[str | None], jobs: list[Job]) -> None:
+def check_tools(tools: Iterable[str | None], jobs: list[Job]) -> None:
     """Report tools that stand for none."""
     modules = [module for job in jobs for module in job.program.modules]
     for name in filter(None, tools):

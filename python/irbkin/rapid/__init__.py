@@ -51,6 +51,7 @@ from irbkin._core import (
     parse_module,
 )
 from irbkin.errors import RapidError
+from irbkin.rapid.candidates import Candidate, Candidates, arms
 from irbkin.rapid.plans import plan_module, plan_targets
 from irbkin.rapid.porting import LeftMove, Ported, port
 from irbkin.rapid.program import FileFinding, ModuleFile, Program, load_program
@@ -58,6 +59,8 @@ from irbkin.rapid.program import FileFinding, ModuleFile, Program, load_program
 __all__ = [
     "NOT_THERE",
     "Argument",
+    "Candidate",
+    "Candidates",
     "Checked",
     "CheckedMove",
     "Declaration",
@@ -84,6 +87,7 @@ __all__ = [
     "ToolData",
     "WobjData",
     "ZoneData",
+    "arms",
     "calc_joint_t",
     "calc_moves",
     "calc_rob_t",
@@ -121,4 +125,5 @@ def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
 
 def __dir__() -> list[str]:
     """List what the module offers."""
-    return sorted({*__all__, "plans", "porting", "program", *(n for n in globals() if n.startswith("__"))})
+    own = {*__all__, "candidates", "plans", "porting", "program"}
+    return sorted({*own, *(n for n in globals() if n.startswith("__"))})
