@@ -1,10 +1,8 @@
-"""Find the arms of the catalog that can run a program: modules, folders, a .pgf, or a backup. Each
-arm is checked as by `irbkin check`, with its limits of the catalog, at --base or where a backup has
-its robot. A move is met if it is checked, has joints, and nothing is wrong with reach, limits, path
-or collisions. Confdata do not count: of another arm they are wrong by nature, and `irbkin port`
-solves them anew. First come the arms that meet all moves, then those that meet more; of equal ones
-that with the least reach. Options that are not given are taken from irbkin.toml. Exit codes: 0 some
-arm meets all moves, 1 none, 2 wrong usage or input.
+"""Each arm of the catalog is checked as by `irbkin check`, at --base or where a backup has its
+robot. A move is met if it is checked, has joints, and nothing is wrong with reach, limits, path or
+collisions. Confdata do not count: of another arm they are wrong by nature, and `irbkin port` solves
+them anew. Most moves met come first, then the least reach. tool, base and cell are taken from
+irbkin.toml if they are not given. Exit codes: 0 some arm meets all moves, 1 none, 2 wrong usage.
 
 Examples:
   irbkin arms program.mod tools.sys --payload 10
@@ -20,31 +18,43 @@ from dataclasses import replace
 
 from irbkin import Robot, rapid
 from irbkin._arm_options import frame
-from irbkin._words import counted
 from irbkin.check.checker import Checker
-from irbkin.check.jobs import backup_of, job_of_files, jobs_of_backup
+from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import report_of
-from irbkin.check.settings import settings_of
+from irbkin.check.settings import Settings, settings_of
 from irbkin.cli.arguments import Parser, is_arm
 from irbkin.cli.check import check_tools, given
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import put_text, shown
 from irbkin.cli.numbers import number
-from irbkin.cli.output import Column, Columns, show
+from irbkin.cli.output import Column, show
 from irbkin.cli.progress import Progress
 from irbkin.rapid.candidates import STAND_IN
+
+COLUMNS = (
+    Column("name", "<24s"),
+    Column("payload", "7.1f", "kg"),
+    Column("reach", "6.0f", "mm"),
+    Column("moves"),
+    Column("met"),
+    Column("unchecked"),
+    Column("margin", "6.1f", "deg"),
+    Column("singular"),
+    Column("shift", "+d", "mm"),
+)
+"""The fields of `rapid.Candidate`."""
 
 
 def add_arguments(parser: Parser) -> None:
     add = parser.add
     add("files", metavar="FILE", nargs="+", help="modules, folders, a .pgf, or a backup")
     add("--arm", metavar="NAME", action="append", help="only this arm; may be repeated")
-    add("--payload", type=number, metavar="KG", default=0.0, help="payload at least [kg]")
+    add("--payload", type=number, default=0.0, metavar="KG", help="payload at least [kg]")
+    words = "move the base of an arm that misses moves by up to 500 mm along its x axis"
+    add("--shift", action="store_true", help=words)
     parser.add_tools()
     parser.add_frame("base", "base in the world", "pose")
     parser.add_cell()
-    words = "move the base of an arm that misses moves by up to 500 mm along its x axis"
-    add("--shift", action="store_true", help=words)
     parser.add_formats("not of names")
     parser.endings = (".csv", ".json", ".txt")
 
@@ -53,26 +63,16 @@ def run(arguments: argparse.Namespace) -> int:
     names: list[str] = arguments.files
     for name in names:
         if not os.path.exists(name) and is_arm(name):
-            raise CommandError(f"{name}: is an arm, no file: give --arm {shlex.quote(name)}")
+            raise CommandError(f"{name} is an arm, no FILE: give --arm {shlex.quote(name)}")
     settings = settings_of(names)
     options = {**settings.options, **given(arguments)}
     checker = Checker(options, settings)
-    backup = backup_of(names)
-    if backup is None:
-        jobs, base = [job_of_files(Robot(STAND_IN), names, settings)], options.get("base")
-    else:
-        every, _ = jobs_of_backup(backup, names)
-        jobs, base = (
-            [it for it in every if any(own.moves for own in it.program.modules)] or every[:1],
-            arguments.base,
-        )
-    if len(jobs) > 1:
-        titles = "; ".join(job.title for job in jobs)
-        raise CommandError(f"{backup}: {len(jobs)} robots, give the files of one: {titles}")
-    (job,) = jobs
+    job, base = _job(names, settings), arguments.base
     assert job.robot is not None
+    if not job.is_saved:
+        base = options.get("base")
     robot = job.robot if base is None else job.robot.with_base(frame(base, "--base"))
-    check_tools(checker.tools, jobs)
+    check_tools(checker.tools, [job])
     for it in job.program.findings:
         if it.severity == "error":
             complain(f"{shown(it.file)}:{it.line}: {it.code} {it.message}")
@@ -80,8 +80,8 @@ def run(arguments: argparse.Namespace) -> int:
         found = rapid.arms(
             job.program,
             names=arguments.arm,
-            payload=arguments.payload,
             cell=checker.cell,
+            payload=arguments.payload,
             tool=checker.tools,
             base=robot.base,
             shift=arguments.shift,
@@ -99,24 +99,28 @@ def run(arguments: argparse.Namespace) -> int:
             notes[1] += " --tool X Y Z gives the TCP of tools that nothing declares."
     if best.unchecked == best.moves:
         raise CommandError(notes[1], FOUND)
-    verb, more = ("port", " --to DIR") if best.met == best.moves else ("check", "")
-    notes.append(f'irbkin {verb} "{best.name}" {shlex.join(names)}{more}')
+    files = shlex.join(names)
+    if best.met == best.moves:
+        stand = f"{best.name} {best.stand}: " if best.stand else ""
+        notes.append(f'{stand}irbkin port "{best.name}" {files} --to DIR')
+    rows = [it._replace(reach=it.reach and round(it.reach * 1e3, 6)) for it in found]
     if arguments.json or (arguments.output or "").lower().endswith(".json"):
-        rows = [it._replace(reach=it.reach and round(it.reach * 1e3, 6))._asdict() for it in found]
-        put_text(arguments.output, json.dumps({"arms": rows}, indent=1) + "\n")
+        text = json.dumps({"arms": [it._asdict() for it in rows]}, indent=1)
+        put_text(arguments.output, f"{text}\n")
     else:
-        heading = f"{counted(len(found), 'arm')}, {counted(best.moves, 'move')}"
-        show(arguments, heading, _columns(found), None, *(("", None, words) for words in notes))
+        columns = dict(zip(COLUMNS, zip(*rows, strict=True), strict=True))
+        show(arguments, ", ".join(names), columns, None, *(("", None, words) for words in notes))
     return FINE if best.met == best.moves else FOUND
 
 
-def _columns(arms: rapid.Candidates) -> Columns:
-    return {
-        Column("name", "<24s"): [it.name for it in arms],
-        Column("payload", "7.1f", "kg"): [it.payload for it in arms],
-        Column("reach", "6.0f", "mm"): [it.reach and it.reach * 1e3 for it in arms],
-        **{Column(key): [getattr(it, key) for it in arms] for key in ("moves", "met", "unchecked")},
-        Column("margin", "6.1f", "deg"): [it.margin_deg for it in arms],
-        Column("singular"): [it.singular for it in arms],
-        Column("shift", "+d", "mm"): [it.shift_mm for it in arms],
-    }
+def _job(names: list[str], settings: Settings) -> Job:
+    """The program of the names, with a robot at its base."""
+    backup = backup_of(names)
+    if backup is None:
+        return job_of_files(Robot(STAND_IN), names, settings)
+    every, _ = jobs_of_backup(backup, names)
+    jobs = [it for it in every if any(own.moves for own in it.program.modules)] or every[:1]
+    if len(jobs) > 1:
+        titles = "; ".join(job.title for job in jobs)
+        raise CommandError(f"{backup} moves {len(jobs)} robots, give the files of one: {titles}")
+    return jobs[0]
