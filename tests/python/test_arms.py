@@ -224,7 +224,7 @@ def test_the_command_writes_the_rows(tmp_path):
     assert f'irbkin port "{found[0].name}"' in text
     done = run("arms", file, "--arm", "IRB 120-3/0.58")
     assert done.returncode == 1
-    assert b"port" not in done.stdout
+    assert b'irbkin check "IRB 120-3/0.58"' in done.stdout
     output = tmp_path / "arms.json"
     assert run("arms", file, *names, "-o", output).stdout == b""
     assert json.loads(output.read_text()) == answer
@@ -259,6 +259,7 @@ WRONG = {
     "cell": (["--cell", "seam.mod"], "a cell is in a file that ends in .toml"),
     "meters": (["--tool", "0", "0", "0.18"], "are these meters?"),
     "array": (["-o", "arms.npy"], "must end in .csv, .json, .txt"),
+    "robot": (["--robot", "UR5"], "did you mean --arm?"),
     "option": (["--shifts"], "did you mean --shift?"),
 }
 
@@ -283,6 +284,14 @@ def test_a_program_without_moves_or_with_unknown_tools_is_refused(tmp_path, monk
     assert done.stderr.count(b"\n") == 1
     assert b"by unknown tools. --tool X Y Z gives" in done.stderr
     assert run("arms", "seam.mod", "--tool", "tGun=0", 0, 180, "--payload", 10).returncode == 0
+
+
+def test_an_arm_without_confdata_is_a_row(tmp_path):
+    file, _ = program(tmp_path)
+    done = run("arms", file, "--arm", "UR5", "--json")
+    (row,) = json.loads(done.stdout)["arms"]
+    assert (done.returncode, row["met"], row["unchecked"]) == (1, 0, row["moves"])
+    assert b"UR5 has no confdata of ABB" in run("arms", file, "--arm", "UR5").stdout
 
 
 def test_a_backup_of_two_robots_must_be_given_by_one():

@@ -30,6 +30,7 @@ OTHERS = {
     "workobject wobjdata frame": "--wobj",
     "tcp tooldata": "--tool",
     "q0 init near": "--seed",
+    "robot": "--arm",
     "colour no-color": "--color",
 }
 """Names of options elsewhere, and ours."""

@@ -28,6 +28,7 @@ from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import put_text, shown
 from irbkin.cli.numbers import number
 from irbkin.cli.output import Column, show
+from irbkin.cli.postures import has_confdata
 from irbkin.cli.progress import Progress
 from irbkin.rapid.candidates import STAND_IN
 
@@ -92,17 +93,19 @@ def run(arguments: argparse.Namespace) -> int:
         )
     best = found[0]
     notes = [found.summary]
-    if best.unchecked:
-        own = replace(job, robot=Robot(best.name).with_base(robot.base))
-        notes.append(f"{best.name}: {report_of(checker, [own]).coverage}")
+    own = Robot(best.name).with_base(robot.base)
+    if not has_confdata(own):
+        notes.append(f"{best.name} has no confdata of ABB: its moves are not checked.")
+    elif best.unchecked:
+        notes.append(f"{best.name}: {report_of(checker, [replace(job, robot=own)]).coverage}")
         if "unknown tools" in notes[1]:
             notes[1] += " --tool X Y Z gives the TCP of tools that nothing declares."
-    if best.unchecked == best.moves:
-        raise CommandError(notes[1], FOUND)
-    files = shlex.join(names)
-    if best.met == best.moves:
-        stand = f"{best.name} {best.stand}: " if best.stand else ""
-        notes.append(f'{stand}irbkin port "{best.name}" {files} --to DIR')
+        if best.unchecked == best.moves:
+            raise CommandError(notes[1], FOUND)
+    is_able = best.met == best.moves
+    stand = f"{best.name} {best.stand}: " if best.stand else ""
+    verb, to = ("port", " --to DIR") if is_able else ("check", "")
+    notes.append(f'{stand}irbkin {verb} "{best.name}" {shlex.join(names)}{to}')
     rows = [it._replace(reach=it.reach and round(it.reach * 1e3, 6)) for it in found]
     if arguments.json or (arguments.output or "").lower().endswith(".json"):
         text = json.dumps({"arms": [it._asdict() for it in rows]}, indent=1)
@@ -110,7 +113,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         columns = dict(zip(COLUMNS, zip(*rows, strict=True), strict=True))
         show(arguments, ", ".join(names), columns, None, *(("", None, words) for words in notes))
-    return FINE if best.met == best.moves else FOUND
+    return FINE if is_able else FOUND
 
 
 def _job(names: list[str], settings: Settings) -> Job:
