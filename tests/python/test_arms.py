@@ -286,6 +286,20 @@ def test_a_program_without_moves_or_with_unknown_tools_is_refused(tmp_path, monk
     assert run("arms", "seam.mod", "--tool", "tGun=0", 0, 180, "--payload", 10).returncode == 0
 
 
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"threads": -2}, "threads is -2, it must be at least 1"),
+        ({"names": []}, "names is empty"),
+        ({"payload": float("nan")}, "payload is nan kg, it must be 0 to 800 kg"),
+    ],
+)
+def test_wrong_arguments_are_named(tmp_path, options, words):
+    _, own = program(tmp_path)
+    with pytest.raises(irbkin.IrbkinError, match=words):
+        rapid.arms(own, **options)
+
+
 def test_an_arm_without_confdata_is_a_row(tmp_path):
     file, _ = program(tmp_path)
     done = run("arms", file, "--arm", "UR5", "--json")

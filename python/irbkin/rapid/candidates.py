@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin import Cell, Robot, catalog, catalog_entry, pose
-from irbkin._arguments import Bar, Report, reporter
+from irbkin._arguments import Bar, Report, count, reporter
 from irbkin._arrays import Floats
 from irbkin._core import Checked, ToolData, check_codes
 from irbkin._files import shown, write_columns
@@ -164,7 +164,7 @@ def arms(
         for it in entries
         if (it.payload or 0.0) >= payload
     ]
-    pool = ThreadPoolExecutor(threads or os.cpu_count())
+    pool = ThreadPoolExecutor(count(threads or os.cpu_count() or 1, "threads", IrbkinError))
     try:
         futures = [pool.submit(candidate, row) for row in rows]
         for done, future in enumerate(as_completed(futures), 1):
