@@ -255,7 +255,7 @@ WRONG = {
     "payload": (["--payload", "900"], "payload is 900 kg, it must be 0 to 800 kg"),
     "negative": (["--payload", "-1"], "payload is -1 kg, it must be 0 to 800 kg"),
     "file": (["missing.mod"], "missing.mod: No such file"),
-    "an arm": (["IRB 2600-12/1.65"], "is an arm, no FILE: give --arm 'IRB 2600-12/1.65'"),
+    "an arm": (["IRB 2600-12/1.65"], "IRB 2600-12/1.65: No such file"),
     "cell": (["--cell", "seam.mod"], "a cell is in a file that ends in .toml"),
     "meters": (["--tool", "0", "0", "0.18"], "are these meters?"),
     "array": (["-o", "arms.npy"], "must end in .csv, .json, .txt"),
@@ -311,7 +311,7 @@ def test_an_arm_without_confdata_is_a_row(tmp_path):
 def test_a_backup_of_two_robots_must_be_given_by_one():
     backup = "examples/backup"
     message = refused("arms", backup)
-    assert "moves 2 robots, give the files of one: T_ROB1: ROB_1" in message
+    assert "2 robots, give the files of one: T_ROB1: ROB_1" in message
     done = run("arms", f"{backup}/RAPID/TASK2", "--payload", 20, "--json")
     rows = json.loads(done.stdout)["arms"]
     checked = json.loads(run("check", f"{backup}/RAPID/TASK2", "--json").stdout)["moves"]

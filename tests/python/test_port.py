@@ -2,10 +2,9 @@
 
 from pathlib import Path
 
+import irbkin
 import numpy as np
 import pytest
-
-import irbkin
 from irbkin import Robot, rapid
 from irbkin.errors import InvalidModelError, IrbkinError
 
@@ -93,7 +92,9 @@ def test_a_program_for_its_own_arm_stays(tmp_path: Path) -> None:
 @pytest.mark.parametrize("mark", [b"", b"\xef\xbb\xbf"])
 def test_nothing_but_confdata_changes(tmp_path: Path, ending: str, mark: bytes) -> None:
     rows = postures(OLD, 3, 8)
-    content = program(OLD, rows, "\n".join(f"MoveJ p{n},v100,fine,tool0;" for n in range(8)), ending)
+    content = program(
+        OLD, rows, "\n".join(f"MoveJ p{n},v100,fine,tool0;" for n in range(8)), ending
+    )
     content = mark + content.decode("latin-1").encode() if mark else content
     wrong = content.replace(b"[0,", b"[7,", 3)
     own = loaded(tmp_path, wrong)
@@ -109,7 +110,9 @@ def mask(content: bytes) -> bytes:
     """A module without its confdata."""
     import re
 
-    return re.sub(rb"\],\[-?\d+,-?\d+,-?\d+,-?\d+\],\[9E", b"],[],[9E", content, flags=re.IGNORECASE)
+    return re.sub(
+        rb"\],\[-?\d+,-?\d+,-?\d+,-?\d+\],\[9E", b"],[],[9E", content, flags=re.IGNORECASE
+    )
 
 
 def test_moves_to_one_target_share_its_confdata(tmp_path: Path) -> None:

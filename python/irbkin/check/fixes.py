@@ -2,7 +2,7 @@
 
 import os
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +10,6 @@ from irbkin._files import replaced, shown, ways
 from irbkin.check.checker import Checker
 from irbkin.check.findings import Finding
 from irbkin.check.jobs import Job
-from irbkin.errors import IrbkinError
 from irbkin.rapid import Checked, ModuleFile
 from irbkin.rapid.program import edited, program_of
 

@@ -58,6 +58,23 @@ def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Sett
     return Job(robot, program_of(files, wrong), robot.name, is_whole=is_list or None)
 
 
+def only_job(robot: Robot, names: Sequence[str], settings: Settings) -> Job:
+    """Return the job of files, of this arm, or of the one task of a backup that moves, of its own.
+
+    Raises:
+        IrbkinError: Several tasks of the backup move.
+    """
+    backup = backup_of(names)
+    if backup is None:
+        return job_of_files(robot, names, settings)
+    every, _ = jobs_of_backup(backup, names)
+    jobs = [job for job in every if any(module.moves for module in job.program.modules)] or every
+    if len(jobs) > 1:
+        titles = "; ".join(job.title for job in jobs)
+        raise IrbkinError(f"{backup}: {len(jobs)} robots, give the files of one: {titles}")
+    return jobs[0]
+
+
 def job_of_task(backup: Backup, task: Task, program: Program) -> Job:
     """Return the job of a task of a backup; without a robot if the task moves no known arm."""
     unit = backup.robots.get(task.robot or "")

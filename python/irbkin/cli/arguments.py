@@ -101,7 +101,7 @@ class Parser(argparse.ArgumentParser):
         given, rest = options.parse_known_args(words)
         if given.robot is not None:
             return [given.robot, *rest]
-        if any(map(is_arm, words)) or (words and _is_meant(words[0])):
+        if any(map(_is_arm, words)) or (words and _is_meant(words[0])):
             return words
         if robot := os.environ.get("IRBKIN_ROBOT"):
             return [robot, *words]
@@ -165,7 +165,7 @@ class Parser(argparse.ArgumentParser):
         self.add("-o", "--output", metavar="FILE", help=f"{words}.txt or none for a table")
 
 
-def is_arm(word: str) -> bool:
+def _is_arm(word: str) -> bool:
     """Whether a word is a name in the catalog, or a file of an arm."""
     from irbkin import catalog_entry
 

@@ -12,17 +12,16 @@ Examples:
 
 import argparse
 import json
-import os
 import shlex
 from dataclasses import replace
 
 from irbkin import Robot, rapid
-from irbkin._arm_options import frame
+from irbkin._arm_options import robot_of
 from irbkin.check.checker import Checker
-from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
+from irbkin.check.jobs import only_job
 from irbkin.check.report import report_of
-from irbkin.check.settings import Settings, settings_of
-from irbkin.cli.arguments import Parser, is_arm
+from irbkin.check.settings import settings_of
+from irbkin.cli.arguments import Parser
 from irbkin.cli.check import check_tools, given
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import put_text, shown
@@ -62,17 +61,12 @@ def add_arguments(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     names: list[str] = arguments.files
-    for name in names:
-        if not os.path.exists(name) and is_arm(name):
-            raise CommandError(f"{name} is an arm, no FILE: give --arm {shlex.quote(name)}")
     settings = settings_of(names)
     options = {**settings.options, **given(arguments)}
     checker = Checker(options, settings)
-    job, base = _job(names, settings), arguments.base
-    assert job.robot is not None
-    if not job.is_saved:
-        base = options.get("base")
-    robot = job.robot if base is None else job.robot.with_base(frame(base, "--base"))
+    stand_in = robot_of({"robot": STAND_IN, "base": options.get("base")}, complain)
+    job = only_job(stand_in, names, settings)
+    robot = stand_in if arguments.base or job.robot is None else job.robot
     check_tools(checker.tools, [job])
     for it in job.program.findings:
         if it.severity == "error":
@@ -114,16 +108,3 @@ def run(arguments: argparse.Namespace) -> int:
         columns = dict(zip(COLUMNS, zip(*rows, strict=True), strict=True))
         show(arguments, ", ".join(names), columns, None, *(("", None, words) for words in notes))
     return FINE if is_able else FOUND
-
-
-def _job(names: list[str], settings: Settings) -> Job:
-    """The program of the names, with a robot at its base."""
-    backup = backup_of(names)
-    if backup is None:
-        return job_of_files(Robot(STAND_IN), names, settings)
-    every, _ = jobs_of_backup(backup, names)
-    jobs = [it for it in every if any(own.moves for own in it.program.modules)] or every[:1]
-    if len(jobs) > 1:
-        titles = "; ".join(job.title for job in jobs)
-        raise CommandError(f"{backup} moves {len(jobs)} robots, give the files of one: {titles}")
-    return jobs[0]

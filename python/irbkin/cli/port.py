@@ -18,7 +18,7 @@ from irbkin._arm_options import robot_of
 from irbkin._files import shown
 from irbkin._words import counted, visible
 from irbkin.check.checker import Checker
-from irbkin.check.jobs import backup_of, job_of_files, jobs_of_backup
+from irbkin.check.jobs import only_job
 from irbkin.check.report import rendered, report_of
 from irbkin.check.settings import settings_of
 from irbkin.cli.arguments import ROBOT_HELP, Parser, read_tools
@@ -50,17 +50,10 @@ def run(arguments: argparse.Namespace) -> int:
     frames = {"robot": arguments.arm, "base": options.get("base")}
     robot = robot_of(frames, complain)
     source = robot_of({**options, "tool": None}, complain) if "robot" in options else None
-    if source is None and (backup := backup_of(names)):
-        jobs, _ = jobs_of_backup(backup, names)
-        if len(jobs) > 1:
-            titles = ", ".join(job.title for job in jobs)
-            raise CommandError(f"one program is ported, give the files of one of: {titles}")
-        (job,) = jobs
-        source = job.robot
-        if source is not None and "base" not in options:
-            robot = robot.with_base(source.base)
-    else:
-        job = job_of_files(source or robot, names, settings)
+    job = only_job(robot, names, settings)
+    if job.robot is not robot and job.robot is not None:
+        source = source or job.robot
+        robot = robot if arguments.base else robot.with_base(job.robot.base)
     if not any(module.moves for module in job.program.modules):
         raise CommandError(f"{' and '.join(names)}: no instruction moves, nothing is ported")
     saved = {"units": job.units, "last_values": job.is_saved, "tools": checker.tools}

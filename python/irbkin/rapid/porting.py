@@ -89,7 +89,7 @@ def port(
         files.append(replace(file, content=file.rewritten(module.source, after)) if own else file)
     if folder is not None:
         files = _written(files, folder)
-    moves = [LeftMove(files[module].path, *others) for module, *others in left]
+    moves = (LeftMove(files[it].path, line, column, words) for it, line, column, words in left)
     return Ported(program_of(files, program.findings), changed, tuple(moves))
 
 
