@@ -292,11 +292,17 @@ class TargetChange:
     """File of the new backup, of a target that was removed of the old one."""
     line: int = 0
     """Line of the declaration, else of the move."""
+    was: tuple[int, ...] | None = None
+    """Its confdata before, if it differs."""
+    now: tuple[int, ...] | None = None
+    """Its confdata now."""
 
     def __str__(self) -> str:
         """Write it as linters do."""
         parts = []
-        if self.distance_mm is not None:
+        if self.kind == "confdata" and self.was is not None and self.now is not None:
+            parts.append(f"was {[*self.was]}, is {[*self.now]}")
+        elif self.distance_mm is not None:
             parts.append(f"by {self.distance_mm:.3f} mm and {angle_text(self.angle_deg)}")
         if self.joint is not None:
             parts.append(f"J{self.joint} by {self.joint_deg:.3f} deg")
@@ -437,6 +443,8 @@ def _change(
             kind = "" if is_same(*by) else "moved"
             if not kind and old.value.robconf != new.value.robconf:
                 kind = "confdata"
+                given["was"] = tuple(old.value.robconf)
+                given["now"] = tuple(new.value.robconf)
         else:
             kind = _turned(given, old.value.robax_deg, new.value.robax_deg)
         if not kind and old.value.extax != new.value.extax:
