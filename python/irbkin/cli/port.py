@@ -12,6 +12,7 @@ Examples:
 """
 
 import argparse
+import os
 from dataclasses import replace
 
 from irbkin._arm_options import robot_of
@@ -25,6 +26,7 @@ from irbkin.cli.arguments import ROBOT_HELP, Parser, read_tools
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import STDIN
 from irbkin.rapid import port
+from irbkin.rapid.program import is_inside
 
 
 def add_arguments(parser: Parser) -> None:
@@ -41,6 +43,9 @@ def run(arguments: argparse.Namespace) -> int:
     names: list[str] = arguments.files
     if STDIN in names:
         raise CommandError("port takes files, not stdin")
+    for place in filter(os.path.isdir, (*names, backup_of(names) or "")):
+        if is_inside(os.path.realpath(arguments.to), os.path.realpath(place)):
+            raise CommandError(f"--to {arguments.to}: is in {place}, which is read: give another")
     settings = settings_of(names)
     given = {name: it for name, it in vars(arguments).items() if it is not None}
     options = {**settings.options, **given}
@@ -60,7 +65,8 @@ def run(arguments: argparse.Namespace) -> int:
     ported = port(job.program, robot, to=arguments.to, source=source, **saved)
     before = f" instead of {source.name}" if source else ""
     files = counted(len(ported.program.files), "file")
-    print(f"{robot.name}{before}: {files} in {shown(arguments.to)}, {ported.changed} new confdata")
+    where = f"{files} in {shown(arguments.to)}"
+    print(visible(f"{robot.name}{before}: {where}, {ported.changed} new confdata"))
     for left in ported.left:
         print(visible(f"{shown(left.file)}:{left.line}:{left.column}: {left.message}"))
     print(f"{counted(len(ported.left), 'move')} left as before\n")

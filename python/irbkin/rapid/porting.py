@@ -1,5 +1,6 @@
 """A program for another arm: its confdata are solved anew, and nothing else changes."""
 
+import contextlib
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -89,17 +90,31 @@ def port(
         files.append(replace(file, content=file.rewritten(module.source, after)) if own else file)
     if folder is not None:
         files = _written(files, folder)
-    moves = (LeftMove(files[it].path, line, column, words) for it, line, column, words in left)
-    return Ported(program_of(files, program.findings), changed, tuple(moves))
+    moves = [LeftMove(files[module].path, *others) for module, *others in left]
+    # What is wrong with these files is found in their copies, too.
+    known = {file.path for file in program.files}
+    others = [found for found in program.findings if found.file not in known]
+    return Ported(program_of(files, others), changed, tuple(moves))
 
 
 def _written(files: Sequence[ModuleFile], folder: Path) -> list[ModuleFile]:
-    """Write files below a folder, and return them there."""
+    """Write files below a folder, and return them there; without the folder if one fails."""
     top = os.path.commonpath([os.path.dirname(os.path.abspath(file.path)) for file in files])
-    there = []
-    for file in files:
-        path = folder / os.path.relpath(os.path.abspath(file.path), top)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(file.content)
-        there.append(replace(file, path=str(path)))
+    there = [
+        replace(file, path=str(folder / os.path.relpath(os.path.abspath(file.path), top)))
+        for file in files
+    ]
+    try:
+        for file in there:
+            os.makedirs(os.path.dirname(file.path), exist_ok=True)
+            Path(file.path).write_bytes(file.content)
+    except BaseException:
+        # The folder was new or empty: half a program is none.
+        for file in there:
+            with contextlib.suppress(OSError):
+                os.remove(file.path)
+        for path, _, _ in os.walk(folder, topdown=False):
+            with contextlib.suppress(OSError):
+                os.rmdir(path)
+        raise
     return there

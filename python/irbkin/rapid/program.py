@@ -205,11 +205,12 @@ def modules_in(folder: str) -> list[str]:
     return sorted(
         path
         for path in found
-        if path.lower().endswith(ENDINGS) and _is_inside(os.path.realpath(path), root)
+        if path.lower().endswith(ENDINGS) and is_inside(os.path.realpath(path), root)
     )
 
 
-def _is_inside(path: str, root: str) -> bool:
+def is_inside(path: str, root: str) -> bool:
+    """Whether a path is a folder or below it, both without links."""
     return os.path.commonpath([path, root]) == root
 
 
@@ -228,7 +229,7 @@ def _listed(path: str, findings: list[FileFinding]) -> Iterator[ModuleFile]:
             wrong = f"is no module ({', '.join(ENDINGS)})"
         elif not os.path.isfile(target):
             wrong = "does not exist"
-        elif not _is_inside(os.path.realpath(target), os.path.realpath(folder)):
+        elif not is_inside(os.path.realpath(target), os.path.realpath(folder)):
             wrong = "is a link out of the folder: it is not read"
         if wrong:
             findings.append(FileFinding(path, line, 1, "E002", f"{name}: {wrong}"))
