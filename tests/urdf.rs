@@ -307,9 +307,9 @@ fn a_message_names_the_links_to_pass() {
 #[test]
 fn a_tip_is_never_guessed() {
     assert_eq!(
-        words(&UR5E.replace("tool0", "tcp")),
+        words(&UR5E.replace("tool0", "camera")),
         "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\" (6), \
-         \"tcp\" (6); tip must name the one to take"
+         \"camera\" (6); tip must name the one to take"
     );
     assert_eq!(
         words(SEVEN),
@@ -326,8 +326,12 @@ fn a_tip_is_never_guessed() {
 
 /// Only where all ends are fixed to the last link: anything else is a question.
 #[test]
-fn tool0_is_the_tip_among_frames_of_one_link() {
+fn a_tool_frame_is_the_tip_among_frames_of_one_link() {
     assert_eq!(six(UR5E, None, None), six(UR5E, None, Some("tool0")));
+    for name in ["tcp", "flange", "grasp"] {
+        let named = UR5E.replace("flange", "mount").replace("tool0", name);
+        assert_eq!(six(&named, None, None), six(&named, None, Some(name)));
+    }
     let fixed = |link: &str, child: &str| {
         format!(
             "<link name='{child}'/><joint name='{child}_joint' type='fixed'>\

@@ -1503,13 +1503,14 @@ def check_program(
 def port_program(
     robot: Robot,
     modules: Sequence[Module],
+    tagged: Sequence[Module],
     *,
     source: Robot | None = None,
     units: Sequence[tuple[str, bool, bool, Sequence[tuple[int, npt.ArrayLike, bool]]]]
     | None = None,
     last_values: bool = False,
     tools: Mapping[str | None, ToolData | npt.ArrayLike] | None = None,
-) -> tuple[list[tuple[int, int, int, str]], int, list[tuple[int, int, int, str]]]: ...
+) -> dict[int, Configuration]: ...
 def check_codes() -> list[tuple[str, str, str, bool]]: ...
 def instructions() -> list[tuple[str, str, str]]: ...
 def motion(

@@ -27,7 +27,8 @@ FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 EXTRA = ("calibrate.md", "plot.md", "general.md")
 # Transcripts of a shell, and the files that they read: their names stand behind the fence.
 TRANSCRIBED = [
-    ROOT / "docs" / "guide" / f"{name}.md" for name in ("cli", "check", "backup", "robotstudio", "replace")
+    ROOT / "docs" / "guide" / f"{name}.md"
+    for name in ("cli", "check", "backup", "robotstudio", "replace")
 ]
 SHELL = re.compile(
     r"^```(?:console\n(?P<console>.*?)|\w+ (?P<file>[\w-]+\.\w+)\n(?P<content>.*?))^```$",

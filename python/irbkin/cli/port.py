@@ -1,14 +1,14 @@
 """The confdata of a program are solved anew for another arm, along its moves and nearest to the
 postures of the arm before; nothing else changes, not one byte. The files are one program, or a
-backup with one robot, which knows --from. They are written into a new folder and checked there.
-What cannot be ported is listed and stays as it is: joint angles, targets that are not reached or
-calculated, external axes of unknown units. Options that are not given are taken from irbkin.toml or
-pyproject.toml. Exit codes: 0 all is ported, 1 some moves are left, 2 wrong usage.
+backup with one robot, which knows --from and --from-base. They are written into a new folder and
+checked there. Moves are left, and listed, that have joint angles, are not checked, or are made
+otherwise than programmed. Options that are not given are taken from irbkin.toml or pyproject.toml.
+Exit codes: 0 all is ported, 1 some moves are left, 2 wrong usage.
 
 Examples:
   irbkin port "IRB 2600-12/1.65" cell.mod tools.sys --from "IRB 1600-6/1.45" --to ported
   irbkin port "IRB 1660ID-6/1.55" backups/cell_3 --to ported
-  irbkin diff "IRB 2600-12/1.65" cell ported
+  irbkin port "IRB 1300-10/1.15" cell.mod --from "IRB 1600-6/1.45" --base 240 0 0 --to ported
 """
 
 import argparse
@@ -19,7 +19,7 @@ from irbkin._arm_options import robot_of
 from irbkin._files import shown
 from irbkin._words import counted, visible
 from irbkin.check.checker import Checker
-from irbkin.check.jobs import only_job
+from irbkin.check.jobs import backup_of, only_job
 from irbkin.check.report import rendered, report_of
 from irbkin.check.settings import settings_of
 from irbkin.cli.arguments import ROBOT_HELP, Parser, read_tools
@@ -35,7 +35,8 @@ def add_arguments(parser: Parser) -> None:
     add("files", metavar="FILE", nargs="+", help="modules, folders, or a backup")
     add("--from", dest="robot", metavar="ARM", help="the arm before, which a backup knows")
     add("--to", metavar="DIR", required=True, help="a new or an empty folder")
-    parser.add_frame("base", "base of both arms in the world", "pose")
+    parser.add_frame("base", "base of the new arm in the world, if it is another", "pose")
+    parser.add_frame("from-base", "base of the arm before", "pose")
     parser.add_tools()
 
 
@@ -47,26 +48,29 @@ def run(arguments: argparse.Namespace) -> int:
         if is_inside(os.path.realpath(arguments.to), os.path.realpath(place)):
             raise CommandError(f"--to {arguments.to}: is in {place}, which is read: give another")
     settings = settings_of(names)
-    given = {name: it for name, it in vars(arguments).items() if it is not None}
-    options = {**settings.options, **given}
-    if arguments.tool:
-        options["tool"] = read_tools(arguments.tool)
+    options = {name: it for name, it in vars(arguments).items() if it is not None}
+    options = {**settings.options, **options, "tool": read_tools(arguments.tool or ())}
     checker = Checker(options, settings)
-    frames = {"robot": arguments.arm, "base": options.get("base")}
-    robot = robot_of(frames, complain)
-    source = robot_of({**options, "tool": None}, complain) if "robot" in options else None
+    before = arguments.from_base or settings.options.get("base")
+    source = None
+    if "robot" in options:
+        source = robot_of({**options, "tool": None, "base": before}, complain)
+    base = arguments.base or before
+    robot = robot_of({"robot": arguments.arm, "base": base}, complain)
     job = only_job(robot, names, settings)
-    if job.robot is not robot and job.robot is not None:
-        source = source or job.robot
-        robot = robot if arguments.base else robot.with_base(job.robot.base)
+    if job.is_saved and job.robot is not None:
+        if base is None:
+            robot = robot.with_base(job.robot.base)
+        if source is None or before is None:
+            source = (source or job.robot).with_base(job.robot.base)
     if not any(module.moves for module in job.program.modules):
         raise CommandError(f"{' and '.join(names)}: no instruction moves, nothing is ported")
     saved = {"units": job.units, "last_values": job.is_saved, "tools": checker.tools}
     ported = port(job.program, robot, to=arguments.to, source=source, **saved)
-    before = f" instead of {source.name}" if source else ""
+    of = f" instead of {source.name}" if source else ""
     files = counted(len(ported.program.files), "file")
     where = f"{files} in {shown(arguments.to)}"
-    print(visible(f"{robot.name}{before}: {where}, {ported.changed} new confdata"))
+    print(visible(f"{robot.name}{of}: {where}, {ported.changed} new confdata"))
     for left in ported.left:
         print(visible(f"{shown(left.file)}:{left.line}:{left.column}: {left.message}"))
     print(f"{counted(len(ported.left), 'move')} left as before\n")

@@ -1,21 +1,34 @@
 """A program for another arm: its confdata are solved anew, and nothing else changes."""
 
-import contextlib
 import os
-from collections.abc import Sequence
+import re
+import shutil
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from irbkin import Robot
-from irbkin._core import port_program
+from irbkin._core import Checked, port_program, read_modules
 from irbkin._words import counted
 from irbkin.rapid.program import ModuleFile, Program, edited, program_of
 
+FIRST_TAG = 1_000_000
+"""The cf1 of the first confdata of a program in its copy with numbers."""
+SKIPPED = re.compile(rb'"[^"\r\n]*"|![^\r\n]*')
+"""Texts in quotes and comments."""
+PART = rb"\s*(?:\[[^][]*\]|[\w{}.]+)\s*"
+NUMBERS = rb"\[" + b",".join([rb"\s*([-+]?\d+)(?:\.0*)?\s*"] * 4) + rb"\]"
+CONFDATA = re.compile(
+    rb"\[(?:%b,){2}\s*%b\s*,%b\]|\bconfdata\s+\w+\s*:=\s*%b" % (PART, NUMBERS, PART, NUMBERS),
+    re.IGNORECASE,
+)
+"""A robtarget with its confdata, and a datum that is one."""
+
 
 class LeftMove(NamedTuple):
-    """A move that stays as it is, although it belongs to the arm before."""
+    """A move that the new arm cannot make as it is."""
 
     file: str
     """Path of the ported file."""
@@ -56,9 +69,11 @@ def port(
 
     Along the moves the postures are chosen that are nearest, in the sum of squares, to those of
     `source` at the same targets; without it, to those at the targets before. A line or an arc ends
-    with the posture that follows from the one at its start. Moves to one target share its confdata.
-    What cannot be ported stays as it is and is listed: joint angles, and targets that are not
-    reached, are calculated, or have external axes of unknown units.
+    with the posture that follows from the one at its start. Moves to one target share its confdata,
+    also with `Offs`, in arrays and as arguments.
+
+    Then the program is checked. Moves are left to be ported by hand if they have joint angles, are
+    not checked, or are made otherwise than programmed: reach, limits, paths (R), confdata (C).
 
     Args:
         program: The program, as of `load_program`.
@@ -66,7 +81,7 @@ def port(
             is.
         to: A new or an empty folder, into which all files of the program are written, below it as
             they are below the folder that they have in common. Without it nothing is written.
-        source: The arm before, of six joints.
+        source: The arm before, of six joints, at its own base.
         options: `units`, `last_values` and `tools`, as of `Program.check`.
 
     Returns:
@@ -81,40 +96,75 @@ def port(
     folder = None if to is None else Path(to)
     if folder is not None and (folder.is_file() or (folder.is_dir() and any(folder.iterdir()))):
         raise FileExistsError(f"{to}: is there already, it must be a new or an empty folder")
-    modules = list(program.modules)
-    edits, changed, left = port_program(robot, modules, source=source, **options)
-    files = []
-    for number, (file, module) in enumerate(zip(program.files, modules, strict=True)):
-        own = {begin: (end, text) for place, begin, end, text in edits if place == number}
-        after = edited(module.source, own)
-        files.append(replace(file, content=file.rewritten(module.source, after)) if own else file)
+    files, modules = list(program.files), list(program.modules)
+    places = [(at, spans) for at, it in enumerate(modules) for spans in _confdata(it.source)]
+    tags: list[dict[int, tuple[int, str]]] = [{} for _ in modules]
+    for number, (at, ((begin, end), *_)) in enumerate(places):
+        tags[at][begin] = (end, str(FIRST_TAG + number))
+    sources = [edited(it.source, own) for it, own in zip(modules, tags, strict=True)]
+    tagged = read_modules([it.encoded(own) for it, own in zip(files, sources, strict=True)])
+    changed = port_program(robot, modules, tagged, source=source, **options)
+    edits: list[dict[int, tuple[int, str]]] = [{} for _ in modules]
+    for number, confdata in changed.items():
+        at, spans = places[number]
+        content = modules[at].source.encode()
+        for (begin, end), value in zip(spans, confdata, strict=True):
+            if int(content[begin:end]) != value:
+                edits[at][begin] = (end, str(value))
+    for at, own in enumerate(edits):
+        if own:
+            before = modules[at].source
+            content = files[at].rewritten(before, edited(before, own))
+            files[at] = replace(files[at], content=content)
     if folder is not None:
         files = _written(files, folder)
-    moves = [LeftMove(files[module].path, *others) for module, *others in left]
     # What is wrong with these files is found in their copies, too.
     known = {file.path for file in program.files}
-    others = [found for found in program.findings if found.file not in known]
-    return Ported(program_of(files, others), changed, tuple(moves))
+    ported = program_of(files, [it for it in program.findings if it.file not in known])
+    left = tuple(_left(ported, ported.check(robot, **options)))
+    return Ported(ported, len(changed), left)
+
+
+def _confdata(source: str) -> Iterator[list[tuple[int, int]]]:
+    """The places of the four numbers of each confdata of a text, in bytes."""
+    content = SKIPPED.sub(lambda it: b" " * len(it[0]), source.encode())
+    for match in CONFDATA.finditer(content):
+        yield [match.span(group) for group in range(1, 9) if match[group] is not None]
+
+
+def _left(program: Program, checked: Checked) -> Iterator[LeftMove]:
+    """The moves that are not checked, not made as programmed, or made with joint angles."""
+    messages: dict[tuple[int, int, int], list[tuple[str, str]]] = {}
+    for found in checked.findings:
+        for place in ((found.module, found.line, found.column), *found.related):
+            messages.setdefault(place, []).append((found.code, found.message))
+    for move in checked.moves:
+        place = (move.module, move.line, move.column)
+        reasons = [
+            words
+            for code, words in messages.get(place, ())
+            if code == move.unchecked or (code[0] in "RC" and code not in ("C203", "C204"))
+        ]
+        if not reasons and move.q is not None and move.confdata is None:
+            reasons = [f"MoveAbsJ {move.target}: joint angles of the arm before, teach them again"]
+        if not reasons and move.unchecked is not None:
+            reasons = [f"{move.target}: is not checked"]
+        for words in reasons[:1]:
+            yield LeftMove(program.files[move.module].path, move.line, move.column, words)
 
 
 def _written(files: Sequence[ModuleFile], folder: Path) -> list[ModuleFile]:
     """Write files below a folder, and return them there; without the folder if one fails."""
     top = os.path.commonpath([os.path.dirname(os.path.abspath(file.path)) for file in files])
-    there = [
-        replace(file, path=str(folder / os.path.relpath(os.path.abspath(file.path), top)))
-        for file in files
-    ]
+    there = []
     try:
-        for file in there:
-            os.makedirs(os.path.dirname(file.path), exist_ok=True)
-            Path(file.path).write_bytes(file.content)
+        for file in files:
+            path = folder / os.path.relpath(os.path.abspath(file.path), top)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(file.content)
+            there.append(replace(file, path=str(path)))
     except BaseException:
         # The folder was new or empty: half a program is none.
-        for file in there:
-            with contextlib.suppress(OSError):
-                os.remove(file.path)
-        for path, _, _ in os.walk(folder, topdown=False):
-            with contextlib.suppress(OSError):
-                os.rmdir(path)
+        shutil.rmtree(folder, ignore_errors=True)
         raise
     return there

@@ -78,7 +78,7 @@ pub use self::module::read::{decode, parse, parse_record, read};
 pub use self::module::write::{NewValue, rewrite};
 pub use self::motion::drive::MotionOptions;
 pub use self::motion::routine::{MotionMove, RoutineMotion, motion};
-pub use self::port::{LeftMove, Ported, port};
+pub use self::port::{FIRST_TAG, port};
 pub use self::text::fault::RapidFault;
 
 /// What the faces use of RAPID besides its public names.

@@ -1,141 +1,150 @@
-//! A program for another arm: the confdata of its targets are solved anew along its moves, and
-//! nothing else changes (docs/guide/replace.md).
+//! A program for another arm: its confdata are solved anew along its moves (docs/guide/replace.md).
 
-use alloc::collections::BTreeMap;
-use alloc::format;
-use alloc::string::String;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use crate::Error;
-use crate::rapid::calc::table::target_of;
+use crate::rapid::calc::confdata::over_quarters;
 use crate::rapid::calc::target::{converter, with_flange};
 use crate::rapid::calc::units::Units;
-use crate::rapid::calc::wrong::not_solved;
-use crate::rapid::check::checker::{CheckOptions, check_texts};
-use crate::rapid::check::fixes::{Finder, Written};
-use crate::rapid::data::finding::{Code, Edit, Finding};
+use crate::rapid::check::checker::CheckOptions;
+use crate::rapid::data::finding::Code;
 use crate::rapid::data::module::Module;
-use crate::rapid::data::moves::{Move, Target};
-use crate::rapid::motion::drive::{Drive, MotionOptions};
-use crate::rapid::motion::goal::{Goal, Place};
-use crate::rapid::motion::routine::{Followed, check as check_options, goals};
-use crate::rapid::motion::thresholds::JOINED_MOVES;
+use crate::rapid::data::moves::Target;
+use crate::rapid::motion::drive::{Drive, Made, MotionOptions};
+use crate::rapid::motion::goal::{Conf, Goal, Place};
+use crate::rapid::motion::routine::{Followed, goals};
+use crate::rapid::motion::thresholds::NEAR_CONFDATA;
 use crate::rapid::program::walk::runs;
-use crate::rapid::program::walker::Run;
+use crate::rapid::program::walker::{Run, Step};
 use crate::rapid::program::whole::Program;
-use irbkin::internal::largest_step;
+use irbkin::thresholds::CONFIGURATION_EDGE;
 use irbkin::{Configuration, Interrupt, Robot};
 
-/// A program for another arm.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Ported {
-    /// The numbers of confdata that change, in the order of the modules and of their texts.
-    pub edits: Vec<Edit>,
-    /// How many confdata have them.
-    pub changed: usize,
-    /// The moves that are not ported, in the same order.
-    pub left: Vec<LeftMove>,
-}
+/// The cf1 of the first tag.
+pub const FIRST_TAG: i32 = 1_000_000;
 
-/// A move that stays as it is, although it belongs to the arm before.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct LeftMove {
-    /// The module, from 0.
-    pub module: usize,
-    /// Line, from 1.
-    pub line: usize,
-    /// Column, from 1, in characters.
-    pub column: usize,
-    /// The instruction, and why it is not ported.
-    pub message: String,
-}
-
-/// Solve the confdata of a program anew for another arm.
+/// Solve the confdata of a program anew for another arm: those that change, by their numbers.
 ///
-/// Along the moves of each run the postures are chosen that are nearest, in the sum of squares, to
-/// those of `source` at the same targets; without it, to those at the targets before. A line or an
-/// arc ends with the posture that follows from the one at its start. Moves to one target share its
-/// confdata. Of the options `units`, `takes_last`, `tools`, `motion` and `interrupt` count.
+/// `tagged` is the program with the number of each confdata that is written, and [`FIRST_TAG`] more,
+/// as its cf1: so it is known which one a move has in the end, through names, arrays, `Offs` and
+/// arguments. Along the moves of each run the postures are chosen that are nearest, in the sum of
+/// squares, to those of `source` at the same targets; without it, to those at the targets before. A
+/// line or an arc ends with the posture that follows from the one at its start. Of several confdata
+/// that moves to one target would have, it gets the one with which all cost least. Of the options
+/// `units`, `takes_last`, `tools` and `interrupt` count.
 ///
 /// # Errors
 ///
-/// As [`check`](crate::rapid::check), of both arms.
+/// As [`check`](crate::rapid::check), of either arm.
 pub fn port<const N: usize>(
     arm: &Robot<N>,
     source: Option<&Robot<N>>,
-    modules: &[(&Module, &str)],
+    [modules, tagged]: [&[&Module]; 2],
     options: &CheckOptions<'_, N>,
-) -> Result<Ported, Error> {
+) -> Result<Vec<(usize, Configuration)>, Error> {
     arm.configuration_rule()?;
-    check_options(&options.motion)?;
-    check_texts(modules)?;
-    let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
     let units = options.units.unwrap_or(const { &Units(Vec::new()) });
     let flange = with_flange(arm)?;
     let convert = converter(&flange, units);
-    let program = Program::new(&modules, &convert);
-    let (runs, _) = runs(&program, options.takes_last, options.tools, options.interrupt)?;
-    let old = source.map(|robot| joints_at_targets(robot, &runs, units, options)).transpose()?;
+    let CheckOptions { takes_last, tools, interrupt, .. } = *options;
+    let program = Program::new(modules, &convert);
+    let (own_runs, _) = runs(&program, takes_last, tools, interrupt)?;
+    let tagged = Program::new(tagged, &convert);
+    let (tagged_runs, _) = runs(&tagged, takes_last, tools, interrupt)?;
+    let old = source.map(|it| made_before(it, &own_runs, units, interrupt)).transpose()?;
     let mut porter = Porter {
         arms: [arm, &flange],
-        motion: options.motion,
-        interrupt: options.interrupt,
-        finder: Finder { program: &program, sources: &sources },
+        interrupt,
         runs: Vec::new(),
-        shared: BTreeMap::new(),
-        left: Vec::new(),
+        pinned: BTreeMap::new(),
+        has_source: source.is_some(),
+        ends: BTreeMap::new(),
     };
     let mut old = old.into_iter().flatten();
-    for run in &runs {
-        porter.add(run, units, old.next());
+    let mut tags = tagged_runs.iter().map(tags_of);
+    for run in &own_runs {
+        let (tags, old) = (tags.next().unwrap_or_default(), old.next().unwrap_or_default());
+        porter.add(run, units, tags, old);
     }
-    porter.ported()
+    porter.solved()
 }
 
-/// The joints of a robot at the target of each move of each run; `None` where it has none.
-fn joints_at_targets<const N: usize>(
+/// The numbers of the confdata of the moves of a run; `None` of joint angles, and where it is
+/// calculated from joints.
+fn tags_of(run: &Run<'_>) -> Vec<Option<usize>> {
+    let tag = |step: &Step<'_>| match step {
+        Step::Move(stepped) => Some(match &stepped.step.target.value {
+            Ok(Target::RobTarget(own)) => usize::try_from(own.robconf.cf1 - FIRST_TAG).ok(),
+            _ => None,
+        }),
+        Step::NotFollowed { .. } => None,
+    };
+    run.steps.iter().filter_map(tag).collect()
+}
+
+/// How the arm before made a move.
+#[derive(Clone, Copy, Default)]
+struct Before<const N: usize> {
+    /// The joints at its target.
+    q: Option<[f64; N]>,
+    /// Whether it could not follow its line or arc.
+    is_blocked: bool,
+    /// Whether it did not have the confdata of its target.
+    is_other: bool,
+}
+
+/// How the arm before made each move of each run.
+fn made_before<const N: usize>(
     robot: &Robot<N>,
     runs: &[Run<'_>],
     units: &Units,
-    options: &CheckOptions<'_, N>,
-) -> Result<Vec<Vec<Option<[f64; N]>>>, Error> {
+    interrupt: Interrupt<'_>,
+) -> Result<Vec<Vec<Before<N>>>, Error> {
     robot.configuration_rule()?;
     let flange = with_flange(robot)?;
-    let mut all: Vec<Vec<Option<[f64; N]>>> = Vec::with_capacity(runs.len());
+    let mut all: Vec<Vec<Before<N>>> = Vec::with_capacity(runs.len());
     for run in runs {
-        let motion = MotionOptions { start: start_of(run.from, &all), ..options.motion };
+        let start = start_of(run.from, &all).and_then(|it| it.q);
+        let motion = MotionOptions { start, ..MotionOptions::default() };
         let mut forget = |drive: &mut Drive<'_, '_, N>, index: usize| {
             drive.samples.forget_before(index + 1);
             Ok(())
         };
-        let robots = [robot, &flange];
-        let followed = Followed::new(
-            robots,
-            &run.steps,
-            &motion,
-            Some(units),
-            options.interrupt,
-            &mut forget,
-        )?;
-        all.push(followed.made.iter().map(|made| made.q).collect());
+        let (robots, units) = ([robot, &flange], Some(units));
+        let followed = Followed::new(robots, &run.steps, &motion, units, interrupt, &mut forget)?;
+        let before = |made: &Made<N>| Before {
+            q: made.q,
+            is_blocked: !made.as_programmed,
+            is_other: !made.as_programmed,
+        };
+        let mut own: Vec<Before<N>> = followed.made.iter().map(before).collect();
+        for finding in &followed.findings {
+            if matches!(finding.code, Code::WrongConfdata | Code::OtherConfiguration) {
+                own[finding.move_index].is_other = true;
+            }
+        }
+        all.push(own);
     }
     Ok(all)
 }
 
 /// Where a run begins: after so many moves of an earlier one.
-fn start_of<T: Copy>(from: Option<(usize, usize)>, ends: &[Vec<Option<T>>]) -> Option<T> {
+fn start_of<T: Copy>(from: Option<(usize, usize)>, ends: &[Vec<T>]) -> Option<T> {
     let (run, moves) = from?;
-    *ends.get(run)?.get(moves.checked_sub(1)?)?
+    ends.get(run)?.get(moves.checked_sub(1)?).copied()
 }
 
 /// A run whose confdata are solved anew.
 struct PortedRun<'m, const N: usize> {
     from: Option<(usize, usize)>,
     goals: Vec<Goal<'m, N>>,
-    /// Where the confdata of each target is written; `None` if it is calculated.
-    written: Vec<Option<Written>>,
-    /// The joints of the arm before at each target; none if the arm is not known.
-    old: Vec<Option<[f64; N]>>,
+    /// The number of the confdata of each target.
+    tags: Vec<Option<usize>>,
+    /// How the arm before made each move.
+    old: Vec<Before<N>>,
+    /// The joints that meet each target inside the limits, those nearest to the old ones.
+    candidates: Vec<Vec<[f64; N]>>,
 }
 
 /// A posture at a target, with the best way to it.
@@ -146,247 +155,340 @@ struct Posture<const N: usize> {
     cost: f64,
     /// The posture on it at the last target that has one.
     before: usize,
-    /// Whether the way ends with a line or an arc that cannot be followed.
+    /// Whether it cannot be made so: a line that cannot be followed, another confdata.
     is_broken: bool,
 }
 
-/// The most postures of a target that are compared: those nearest to the old one.
-const MOST_POSTURES: usize = 16;
-
-/// The cost of a line that cannot be followed [rad^2]: more than all other moves of a program.
-const BROKEN: f64 = 1e9;
-
-struct Porter<'a, 'm, const N: usize> {
-    /// The arm, and the same with the flange as its tool.
-    arms: [&'a Robot<N>; 2],
-    motion: MotionOptions<N>,
-    interrupt: Interrupt<'a>,
-    finder: Finder<'a, 'm>,
-    runs: Vec<PortedRun<'a, N>>,
-    /// The confdata of targets whose moves would have several, by where it is written.
-    shared: BTreeMap<(usize, usize), Configuration>,
-    left: Vec<LeftMove>,
+impl<const N: usize> Posture<N> {
+    fn at(q: [f64; N]) -> Self {
+        Self { q, cost: 0.0, before: 0, is_broken: false }
+    }
 }
 
-impl<'a, const N: usize> Porter<'a, '_, N> {
-    fn add(&mut self, run: &'a Run<'a>, units: &Units, old: Option<Vec<Option<[f64; N]>>>) {
-        let (mut findings, mut unfollowed) = (Vec::new(), Vec::new());
-        let goals = goals(self.arms[0], &run.steps, Some(units), [&mut findings, &mut unfollowed]);
-        self.left.extend(unfollowed.iter().map(|it| left(it.module, it)));
-        for (index, goal) in goals.iter().enumerate() {
-            let wrong = findings.iter().find(|it| it.move_index == index);
-            match (goal.place, wrong) {
-                (Some(Place::Tool(..)), _) => {}
-                (_, Some(finding)) => self.left.push(left(goal.stepped.module, finding)),
-                (Some(Place::Joints(_)), None) => {
-                    let words = "joint angles of the arm before, teach them again";
-                    self.left.push(left_at(goal, words));
-                }
-                (None, None) => self.left.push(left_at(goal, "its target is not known")),
-            }
-        }
-        let written = goals.iter().map(|it| self.finder.of(it.stepped.module, it.step)).collect();
-        let old = old.unwrap_or_default();
-        self.runs.push(PortedRun { from: run.from, goals, written, old });
+/// The postures at the targets of all runs; `None` where there is none.
+type Chosen<const N: usize> = Vec<Vec<Option<Posture<N>>>>;
+
+/// The most confdata that are tried for targets of which moves do not have theirs.
+const MOST_TRIALS: usize = 1000;
+
+/// The most postures of a target that are compared.
+const MOST_POSTURES: usize = 16;
+
+/// The cost of a line that cannot be followed, and of a move that cannot have the confdata of its
+/// target [rad^2]: more than all other moves of a program.
+const BROKEN: f64 = 1e9;
+
+struct Porter<'a, const N: usize> {
+    /// The arm, and the same with the flange as its tool.
+    arms: [&'a Robot<N>; 2],
+    interrupt: Interrupt<'a>,
+    runs: Vec<PortedRun<'a, N>>,
+    /// The confdata that targets have, by their numbers.
+    pinned: BTreeMap<usize, Configuration>,
+    /// Whether the arm before is known.
+    has_source: bool,
+    /// The ends of lines that have been followed, by the run, the move and the bits of its start.
+    ends: BTreeMap<(usize, usize, [u64; N]), Option<[f64; N]>>,
+}
+
+impl<'a, const N: usize> Porter<'a, N> {
+    fn add(
+        &mut self,
+        run: &'a Run<'a>,
+        units: &Units,
+        mut tags: Vec<Option<usize>>,
+        mut old: Vec<Before<N>>,
+    ) {
+        let mut findings = [Vec::new(), Vec::new()];
+        let goals = goals(self.arms[0], &run.steps, Some(units), findings.each_mut());
+        tags.resize(goals.len(), None);
+        old.resize(goals.len(), Before::default());
+        let candidates = goals.iter().zip(&old).map(|(goal, old)| self.candidates(goal, old.q));
+        let candidates = candidates.collect();
+        self.runs.push(PortedRun { from: run.from, goals, tags, old, candidates });
     }
 
-    fn ported(mut self) -> Result<Ported, Error> {
-        let mut chosen = self.chosen()?;
-        while self.share(&chosen)? {
-            chosen = self.chosen()?;
+    fn candidates(&self, goal: &Goal<'_, N>, old: Option<[f64; N]>) -> Vec<[f64; N]> {
+        let (pose, arm_angle) = match goal.place {
+            None => return Vec::new(),
+            Some(Place::Joints(q)) => return Vec::from([q]),
+            Some(Place::Tool(pose, wanted)) => (goal.frames.flange(&pose), wanted.arm_angle),
+        };
+        let seed = old.unwrap_or([0.0; N]);
+        let mut all = self.arms[1].ik_inside_at(&pose, arm_angle).unwrap_or_default();
+        // Next to a singularity, the free joint of the old ones.
+        all.extend(self.arms[1].ik_nearest_at(&pose, &seed, arm_angle));
+        all.sort_by(|a, b| apart(&seed, a).total_cmp(&apart(&seed, b)));
+        all.truncate(MOST_POSTURES);
+        all
+    }
+
+    /// The confdata that change.
+    fn solved(mut self) -> Result<Vec<(usize, Configuration)>, Error> {
+        let nearest = |run: &PortedRun<N>| {
+            let first = |all: &Vec<[f64; N]>| all.first().map(|q| Posture::at(*q));
+            run.candidates.iter().map(first).collect()
+        };
+        let first = if self.has_source {
+            self.runs.iter().map(nearest).collect()
+        } else {
+            self.chosen()?.0
+        };
+        for (tag, all) in self.wanted(&first)? {
+            self.pinned.insert(tag, all[0]);
         }
-        let flange = self.arms[1];
-        let mut edits = BTreeMap::new();
-        for (run, chosen) in self.runs.iter().zip(&chosen) {
-            for (index, goal) in run.goals.iter().enumerate() {
-                let Some(Place::Tool(pose, wanted)) = goal.place else { continue };
-                let Some(posture) = chosen[index] else {
-                    let pose = goal.frames.flange(&pose);
-                    if let Err(error) = flange.ik_nearest_at(&pose, &[0.0; N], wanted.arm_angle) {
-                        let finding = not_solved(&error.into()).at(goal.step, index);
-                        self.left.push(left(goal.stepped.module, &finding));
+        let (mut chosen, mut cost) = self.chosen()?;
+        let mut trials = 0;
+        loop {
+            let before = cost;
+            for tag in self.unmet(&chosen) {
+                let others = self.others(tag)?;
+                trials += others.len();
+                if trials > MOST_TRIALS {
+                    return Ok(self.changed());
+                }
+                let Some(mut best) = self.pinned.get(&tag).copied() else { continue };
+                for other in others {
+                    self.pinned.insert(tag, other);
+                    let (_, own) = self.chosen()?;
+                    if own < cost {
+                        (best, cost) = (other, own);
                     }
-                    continue;
-                };
-                if posture.is_broken {
-                    let words = "no posture at its start leads to its end";
-                    self.left.push(left_at(goal, words));
                 }
-                let from = written_configuration(goal.step);
-                let to = flange.configuration(&posture.q)?;
-                let Some(written) = &run.written[index] else {
-                    if from != Some(to) {
-                        let words = format!("its confdata is calculated, {to} is needed");
-                        self.left.push(left_at(goal, &words));
-                    }
-                    continue;
-                };
-                let shared = self.shared.get(&written.begin()).copied().unwrap_or(to);
-                if shared != to {
-                    let words = format!("other moves to its target need {shared}, it needs {to}");
-                    self.left.push(left_at(goal, &words));
-                }
-                if let Some(from) = from.filter(|from| *from != shared) {
-                    edits.insert(written.begin(), written.edits(from, shared));
-                }
+                self.pinned.insert(tag, best);
             }
+            if cost >= before {
+                return Ok(self.changed());
+            }
+            chosen = self.chosen()?.0;
         }
-        self.left.sort_unstable();
-        self.left.dedup();
-        let changed = edits.len();
-        Ok(Ported { edits: edits.into_values().flatten().collect(), changed, left: self.left })
     }
 
-    /// Give each target one confdata, the one that most of its moves have; return whether postures
-    /// must be chosen anew.
-    fn share(&mut self, chosen: &[Vec<Option<Posture<N>>>]) -> Result<bool, Error> {
-        let mut counts: BTreeMap<_, BTreeMap<[i32; 4], usize>> = BTreeMap::new();
-        for (run, chosen) in self.runs.iter().zip(chosen) {
-            for (written, posture) in run.written.iter().zip(chosen) {
-                if let (Some(written), Some(posture)) = (written, posture) {
-                    let own = self.arms[1].configuration(&posture.q)?.into();
-                    *counts.entry(written.begin()).or_default().entry(own).or_default() += 1;
-                }
-            }
-        }
-        let before = self.shared.len();
-        for (begin, counts) in counts.into_iter().filter(|(_, counts)| counts.len() > 1) {
-            let most = counts.into_iter().max_by_key(|(_, count)| *count);
-            if let Some(([cf1, cf4, cf6, cfx], _)) = most {
-                let configuration = Configuration { cf1, cf4, cf6, cfx };
-                self.shared.entry(begin).or_insert(configuration);
-            }
-        }
-        Ok(self.shared.len() > before)
-    }
-
-    /// The posture at the target of each move of each run; `None` where there is none.
-    fn chosen(&self) -> Result<Vec<Vec<Option<Posture<N>>>>, Error> {
-        let mut all = Vec::with_capacity(self.runs.len());
+    /// The confdata that a target may have in any of its moves.
+    fn others(&self, tag: usize) -> Result<Vec<Configuration>, Error> {
+        let mut others = Vec::new();
         for run in &self.runs {
-            all.push(self.along(run, start_of(run.from, &all))?);
+            let own = run.tags.iter().zip(&run.candidates).filter(|(it, _)| **it == Some(tag));
+            for q in own.flat_map(|(_, candidates)| candidates) {
+                let configuration = self.arms[1].configuration(q)?;
+                if !others.contains(&configuration) {
+                    others.push(configuration);
+                }
+            }
         }
-        Ok(all)
+        Ok(others)
+    }
+
+    /// The numbers of confdata that moves do not have, or with which lines cannot be followed.
+    fn unmet(&self, chosen: &Chosen<N>) -> BTreeSet<usize> {
+        let mut unmet = BTreeSet::new();
+        for (run, chosen) in self.runs.iter().zip(chosen) {
+            for (index, posture) in chosen.iter().enumerate() {
+                let Some(posture) = posture else { continue };
+                if posture.is_broken {
+                    unmet.extend(run.tags[index]);
+                    unmet.extend(index.checked_sub(1).and_then(|before| run.tags[before]));
+                }
+            }
+        }
+        unmet
+    }
+
+    /// Pinned confdata that are not as they are written.
+    fn changed(&self) -> Vec<(usize, Configuration)> {
+        let mut written = BTreeMap::new();
+        for run in &self.runs {
+            for (goal, tag) in run.goals.iter().zip(&run.tags) {
+                if let (Some(Place::Tool(_, wanted)), Some(tag)) = (goal.place, tag) {
+                    written.insert(*tag, wanted.configuration);
+                }
+            }
+        }
+        let pinned = self.pinned.iter().map(|(tag, it)| (*tag, *it));
+        pinned.filter(|(tag, it)| written.get(tag).is_some_and(|written| written != it)).collect()
+    }
+
+    /// The confdata that moves would have at their targets, by their numbers: each as it is pinned
+    /// or written if the posture has that. Moves that the arm before did not make with the confdata
+    /// of their targets count only where no others do.
+    fn wanted(
+        &self,
+        chosen: &[Vec<Option<Posture<N>>>],
+    ) -> Result<BTreeMap<usize, Vec<Configuration>>, Error> {
+        let [mut wanted, mut others] = [const { BTreeMap::new() }; 2];
+        for (run, chosen) in self.runs.iter().zip(chosen) {
+            for (index, posture) in chosen.iter().enumerate() {
+                let goal = &run.goals[index];
+                let (Some(tag), Some(posture)) = (run.tags[index], posture) else { continue };
+                let Some(Place::Tool(_, request)) = goal.place else { continue };
+                // Without a start, the first move is made by its confdata all the same.
+                if goal.conf() == Conf::Off && index > 0 {
+                    continue;
+                }
+                let has = |it: &Configuration, over| self.has(&posture.q, *it, over);
+                let pinned = self.pinned.get(&tag).filter(|it| has(it, NEAR_CONFDATA));
+                let written = Some(&request.configuration);
+                let written = written.filter(|it| has(it, CONFIGURATION_EDGE));
+                let own = match pinned.or(written) {
+                    Some(configuration) => *configuration,
+                    None => self.arms[1].configuration(&posture.q)?,
+                };
+                let counted = if run.old[index].is_other { &mut others } else { &mut wanted };
+                let all: &mut Vec<Configuration> = counted.entry(tag).or_default();
+                if !all.contains(&own) {
+                    all.push(own);
+                }
+            }
+        }
+        for (tag, all) in others {
+            wanted.entry(tag).or_insert(all);
+        }
+        Ok(wanted)
+    }
+
+    /// Whether joints have a configuration, some of their axes by so much over their quarters [rad].
+    fn has(&self, q: &[f64; N], configuration: Configuration, over: f64) -> bool {
+        over_quarters(self.arms[1], q, configuration).is_some_and(|it| it.by <= over)
+    }
+
+    /// The posture at the target of each move of each run, and what they cost together [rad^2].
+    fn chosen(&mut self) -> Result<(Chosen<N>, f64), Error> {
+        let mut chosen: Chosen<N> = Vec::with_capacity(self.runs.len());
+        let mut total = 0.0;
+        for run in 0..self.runs.len() {
+            let start = start_of(self.runs[run].from, &chosen).flatten();
+            let (own, cost) = self.along(run, start)?;
+            chosen.push(own);
+            total += cost;
+        }
+        Ok((chosen, total))
     }
 
     /// The postures along a run from its start, whose cost together is least.
     fn along(
-        &self,
-        run: &PortedRun<'_, N>,
+        &mut self,
+        run: usize,
         start: Option<Posture<N>>,
-    ) -> Result<Vec<Option<Posture<N>>>, Error> {
-        let start = start.map(|it| Posture { cost: 0.0, ..it });
-        let mut layers: Vec<Vec<Posture<N>>> = Vec::with_capacity(run.goals.len() + 1);
-        layers.push(start.into_iter().collect());
+    ) -> Result<(Vec<Option<Posture<N>>>, f64), Error> {
+        let count = self.runs[run].goals.len();
+        let mut layers: Vec<Vec<Posture<N>>> = Vec::with_capacity(count + 1);
+        layers.push(start.map(|it| Posture { cost: 0.0, ..it }).into_iter().collect());
         let mut last = 0;
-        for index in 0..run.goals.len() {
+        for index in 0..count {
             self.interrupt.check(index)?;
-            let own = self.postures(run, index, &layers[last], last == index)?;
+            let own = self.postures((run, index), &layers[last], last == index)?;
             if !own.is_empty() {
                 last = index + 1;
             }
             layers.push(own);
         }
-        let mut chosen = Vec::with_capacity(run.goals.len());
-        let mut at = None;
+        let least = |layer: &[Posture<N>]| {
+            (0..layer.len()).min_by(|a, b| layer[*a].cost.total_cmp(&layer[*b].cost))
+        };
+        let mut at = least(&layers[last]);
+        let cost = at.map_or(0.0, |at| layers[last][at].cost);
+        let mut chosen = Vec::with_capacity(count);
         for layer in layers[1..].iter().rev() {
-            let best = || (0..layer.len()).min_by(|a, b| layer[*a].cost.total_cmp(&layer[*b].cost));
-            let posture = at.or_else(best).and_then(|at: usize| layer.get(at)).copied();
+            let posture = at.and_then(|at| layer.get(at)).copied();
             at = posture.map(|it| it.before).or(at);
             chosen.push(posture);
         }
         chosen.reverse();
-        Ok(chosen)
+        Ok((chosen, cost))
     }
 
     /// The postures at the target of a move, each with the best way from those at the last target
     /// that has any, which is the one before or not.
     fn postures(
-        &self,
-        run: &PortedRun<'_, N>,
-        index: usize,
+        &mut self,
+        (run, index): (usize, usize),
         before: &[Posture<N>],
         is_next: bool,
     ) -> Result<Vec<Posture<N>>, Error> {
-        let goal = &run.goals[index];
-        let old = run.old.get(index).copied().flatten();
-        let mut ends = Vec::new();
-        if goal.is_cartesian() && is_next && !goal.from_unknown {
-            for from in before {
-                let (arms, motion) = (self.arms, &self.motion);
-                let end = Drive::end_of(arms, &run.goals, index, &from.q, motion, self.interrupt)?;
-                ends.push(end);
+        let goal = &self.runs[run].goals[index];
+        let old = self.runs[run].old[index];
+        let is_known = is_next && !goal.from_unknown && goal.place.is_some();
+        let is_line = goal.is_cartesian() && is_known;
+        let is_free = goal.conf() == Conf::Off || old.is_other;
+        let is_led = is_line || goal.conf() == Conf::Off && !goal.is_cartesian();
+        let mut found: Vec<Posture<N>> = Vec::new();
+        // Those from which any posture can follow, and what that costs.
+        let mut free: Vec<(usize, f64)> = Vec::new();
+        let broken = if is_line && !old.is_blocked { BROKEN } else { 0.0 };
+        for (from, posture) in before.iter().enumerate() {
+            let end = match (is_line, is_led) {
+                (true, _) => self.end((run, index), &posture.q)?,
+                (false, true) => self.nearest((run, index), &posture.q),
+                (false, false) => None,
+            };
+            if let Some(q) = end {
+                let own = self.cost((run, index), &q, is_free);
+                let (cost, is_broken) = (posture.cost + own, own >= BROKEN);
+                found.push(Posture { q, cost, before: from, is_broken });
+            } else {
+                free.push((from, posture.cost + broken));
             }
         }
-        let step = |from: usize, q: &[f64; N]| match (ends.get(from), old) {
-            (Some(Some(end)), _) if largest_step(end, q).1.abs() <= JOINED_MOVES => 0.0,
-            (Some(_), _) => BROKEN,
-            (None, Some(_)) => 0.0,
-            (None, None) => apart(&before[from].q, q),
-        };
-        let posture = |q: [f64; N]| {
-            let ways = (0..before.len()).map(|from| {
-                let step = step(from, &q);
-                let (cost, is_broken) = (before[from].cost + step, step >= BROKEN);
-                Posture { q, cost, before: from, is_broken }
-            });
-            // Without one before it, the nearest to zero.
-            let cost = if old.is_none() { apart(&[0.0; N], &q) } else { 0.0 };
-            let first = Posture { q, cost, before: 0, is_broken: false };
-            let best = ways.min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(first);
-            Posture { cost: best.cost + old.map_or(0.0, |old| apart(&old, &q)), ..best }
-        };
-        Ok(self.candidates(run, index, old).into_iter().map(posture).collect())
+        if before.is_empty() || !free.is_empty() {
+            let step = |from: &[f64; N], q: &[f64; N]| old.q.map_or(apart(from, q), |_| 0.0);
+            found.extend(self.runs[run].candidates[index].iter().map(|q| {
+                let ways =
+                    free.iter().map(|(from, cost)| (*from, cost + step(&before[*from].q, q)));
+                // Without one before it, the nearest to zero.
+                let best = ways.min_by(|a, b| a.1.total_cmp(&b.1));
+                let (from, cost) = best.unwrap_or((0, step(&[0.0; N], q)));
+                let own = self.cost((run, index), q, is_free);
+                let is_broken = own >= BROKEN || broken > 0.0 && !before.is_empty();
+                Posture { q: *q, cost: cost + own, before: from, is_broken }
+            }));
+        }
+        found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        found.truncate(MOST_POSTURES);
+        Ok(found)
     }
 
-    /// The joints that meet the target of a move inside the limits, those nearest to the old ones.
-    fn candidates(
-        &self,
-        run: &PortedRun<'_, N>,
-        index: usize,
-        old: Option<[f64; N]>,
-    ) -> Vec<[f64; N]> {
-        let flange = self.arms[1];
-        let goal = &run.goals[index];
-        let (pose, wanted) = match goal.place {
-            None => return Vec::new(),
-            Some(Place::Joints(q)) => return Vec::from([q]),
-            Some(Place::Tool(pose, wanted)) => (goal.frames.flange(&pose), wanted),
-        };
-        let seed = old.unwrap_or([0.0; N]);
-        let mut all = flange.ik_inside_at(&pose, wanted.arm_angle).unwrap_or_default();
-        // Next to a singularity, the free joint of the old ones.
-        all.extend(flange.ik_nearest_at(&pose, &seed, wanted.arm_angle));
-        all.sort_by(|a, b| apart(&seed, a).total_cmp(&apart(&seed, b)));
-        let shared = run.written[index].as_ref().and_then(|it| self.shared.get(&it.begin()));
-        let is_shared = |q: &[f64; N]| flange.configuration(q).ok().as_ref() == shared;
-        if all.iter().any(is_shared) {
-            all.retain(is_shared);
+    /// What a posture costs: how far it is from the old one, and whether it has what is pinned.
+    fn cost(&self, (run, index): (usize, usize), q: &[f64; N], is_free: bool) -> f64 {
+        let PortedRun { tags, old, .. } = &self.runs[run];
+        let pinned = tags[index].and_then(|tag| self.pinned.get(&tag));
+        let is_met = is_free || pinned.is_none_or(|it| self.has(q, *it, NEAR_CONFDATA));
+        let off = old[index].q.map_or(0.0, |old| apart(&old, q));
+        if is_met { off } else { off + BROKEN }
+    }
+
+    /// The joints at the end of a line or an arc; `None` if it cannot be followed.
+    fn end(
+        &mut self,
+        (run, index): (usize, usize),
+        from: &[f64; N],
+    ) -> Result<Option<[f64; N]>, Error> {
+        let key = (run, index, from.map(f64::to_bits));
+        if let Some(known) = self.ends.get(&key) {
+            return Ok(*known);
         }
-        all.truncate(MOST_POSTURES);
-        all
+        let goals = &self.runs[run].goals;
+        let end = Drive::end_of(
+            self.arms,
+            goals,
+            index,
+            from,
+            &MotionOptions::default(),
+            self.interrupt,
+        )?;
+        self.ends.insert(key, end);
+        Ok(end)
+    }
+
+    /// The joints at a target that are nearest to those before, as `ConfJ\Off` has it.
+    fn nearest(&self, (run, index): (usize, usize), from: &[f64; N]) -> Option<[f64; N]> {
+        let goal = &self.runs[run].goals[index];
+        let Some(Place::Tool(pose, wanted)) = goal.place else { return None };
+        let pose = goal.frames.flange(&pose);
+        self.arms[1].ik_nearest_at(&pose, from, wanted.arm_angle).ok()
     }
 }
 
 /// How far joints are apart [rad^2].
 fn apart<const N: usize>(from: &[f64; N], to: &[f64; N]) -> f64 {
     from.iter().zip(to).map(|(a, b)| (b - a) * (b - a)).sum()
-}
-
-/// The confdata of a target as it is written.
-fn written_configuration(step: &Move) -> Option<Configuration> {
-    match target_of(&step.target) {
-        Ok(Target::RobTarget(target)) => Some(target.robconf),
-        _ => None,
-    }
-}
-
-fn left(module: usize, finding: &Finding) -> LeftMove {
-    let Finding { line, column, message, .. } = finding;
-    LeftMove { module, line: *line, column: *column, message: message.clone() }
-}
-
-fn left_at<const N: usize>(goal: &Goal<'_, N>, words: &str) -> LeftMove {
-    let finding = Finding::new(Code::NotFollowed, words).at(goal.step, 0);
-    left(goal.stepped.module, &finding)
 }

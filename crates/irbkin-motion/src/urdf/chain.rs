@@ -22,8 +22,8 @@ const FEW: usize = 12;
 /// Number of joints of the longest arm: part of a longer chain is one, part of such an arm is not.
 const MOST_JOINTS: usize = 7;
 
-/// The link that ROS-Industrial's convention names for the tool's frame of an arm.
-const TOOL: &str = "tool0";
+/// Names of the tool's frame, the first that a file has: ROS-Industrial's convention, then others.
+const TOOLS: [&str; 4] = ["tool0", "tcp", "flange", "grasp"];
 
 /// Number of ends of chains up to which a message looks for chains that could be taken.
 const MOST_ENDS: usize = 64;
@@ -279,8 +279,8 @@ fn carriers(tree: &Tree<'_>) -> Vec<usize> {
 }
 
 /// The only link at the end of a chain whose number of joints is in `wanted`. A frame is never
-/// guessed: if there are several, none is chosen, except [`TOOL`] if all of them are fixed to one
-/// link, which the remark says then. Nor if a joint may be a gripper's: one of [`grippers`], or the
+/// guessed: if there are several, none is chosen, except one of [`TOOLS`] if all of them are fixed to
+/// one link, which the remark says then. Nor if a joint may be a gripper's: one of [`grippers`], or the
 /// last one if another end is on a link before it.
 fn only_tip(
     tree: &Tree<'_>,
@@ -323,9 +323,10 @@ fn only_tip(
     let shorter: Vec<usize> = ends.iter().filter(is_before).copied().collect();
     let named = |link: usize| remark(tree, link, ways[link]);
     let are_on_one_link = |tips: &[usize]| tips.iter().all(|it| carriers[*it] == carriers[tips[0]]);
+    let frame = |name: &&str| tips.iter().copied().find(|tip| tree.links[*tip] == *name);
     let chosen = match tips[..] {
         [tip] => Some(tip),
-        _ if are_on_one_link(&tips) => tips.iter().copied().find(|tip| tree.links[*tip] == TOOL),
+        _ if are_on_one_link(&tips) => TOOLS.iter().find_map(frame),
         _ => None,
     };
     match (last, chosen) {

@@ -43,7 +43,8 @@ where
     ///
     /// `base` is the link in whose frame poses are given; by default the link without a parent.
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
-    /// `N` revolute joints, or `tool0` if all such ends are fixed to one link. Joints are numbered from base to tip; fixed joints, and joints that are
+    /// `N` revolute joints or, if all such ends are fixed to one link, the first of `tool0`, `tcp`,
+    /// `flange` and `grasp`. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
     /// velocities are the text's; a limit beyond 1e5 rad is none. A velocity that is no positive
     /// number below 1e5 rad/s is unknown, and one unknown velocity leaves the robot without

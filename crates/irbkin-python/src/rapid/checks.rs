@@ -13,6 +13,7 @@ use crate::arm::{SharedArm, on};
 use crate::bodies::Shapes;
 use crate::cell::PyCell;
 use crate::errors::{Fault, exception};
+use crate::records::Configuration;
 use crate::robot::PyRobot;
 use crate::signals::detached_until;
 use crate::targets::{read_frame, read_pose};
@@ -175,6 +176,8 @@ pub(crate) fn check_program<'py>(
 /// Args:
 ///     robot: The arm. Work objects are given in the world, in which its base is.
 ///     modules: As of `check_program`.
+///     tagged: The same with a number for each confdata that is written, and 1,000,000 more, as its
+///         cf1.
 ///     source: The arm before, to whose postures the new ones are the nearest; without it each is
 ///         the nearest to the one at the target before.
 ///     units: As of `check_program`.
@@ -182,29 +185,30 @@ pub(crate) fn check_program<'py>(
 ///     tools: As of `check_program`.
 ///
 /// Returns:
-///     The edits: modules, begins and ends in bytes, texts; how many confdata they change; the moves
-///     that are not ported: modules, lines, columns, messages.
+///     The confdata that change, by their numbers.
 ///
 /// Raises:
 ///     InvalidModelError: As of `check`, of either arm; one with seven joints.
 #[pyfunction]
-#[pyo3(signature = (robot, modules, *, source=None, units=None, last_values=false, tools=None))]
+#[pyo3(signature = (robot, modules, tagged, *, source=None, units=None, last_values=false,
+    tools=None))]
 #[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
 pub(crate) fn port_program<'py>(
     robot: &Bound<'py, PyRobot>,
     modules: Vec<Bound<'py, RapidModule>>,
+    tagged: Vec<Bound<'py, RapidModule>>,
     source: Option<&Bound<'py, PyRobot>>,
     units: Option<Vec<GivenUnit<'py>>>,
     last_values: bool,
     tools: Option<NamedTools<'py>>,
-) -> PyResult<(Vec<PlacedText>, usize, Vec<PlacedText>)> {
+) -> PyResult<BTreeMap<usize, Configuration>> {
     let units = read_units(units)?;
     let tools = read_tools(tools)?;
     let arm = six_joints(robot, "robot")?;
     let source = source.map(|it| six_joints(it, "source")).transpose()?;
-    let texts = modules.iter().map(|it| (&it.get().module, it.get().source.as_str()));
-    let texts: Vec<_> = texts.collect();
-    let ported = detached_until(robot.py(), |interrupt| {
+    let [modules, tagged]: [Vec<&Module>; 2] =
+        [&modules, &tagged].map(|all| all.iter().map(|it| &it.get().module).collect());
+    let changed = detached_until(robot.py(), |interrupt| {
         let options = CheckOptions {
             units: Some(&units),
             takes_last: last_values,
@@ -212,12 +216,10 @@ pub(crate) fn port_program<'py>(
             interrupt,
             ..CheckOptions::default()
         };
-        rapid::port(arm, source, &texts, &options)
+        rapid::port(arm, source, [&modules, &tagged], &options)
     })?
     .map_err(exception)?;
-    let edits = ported.edits.into_iter().map(|it| (it.module, it.span.start, it.span.end, it.text));
-    let left = ported.left.into_iter().map(|it| (it.module, it.line, it.column, it.message));
-    Ok((edits.collect(), ported.changed, left.collect()))
+    Ok(changed.into_iter().map(|(number, it)| (number, Configuration::from(it))).collect())
 }
 
 fn six_joints<'a>(robot: &'a Bound<'_, PyRobot>, argument: &str) -> PyResult<&'a Robot<6>> {
@@ -229,9 +231,6 @@ fn six_joints<'a>(robot: &'a Bound<'_, PyRobot>, argument: &str) -> PyResult<&'a
         ))),
     }
 }
-
-/// A module, two numbers of a place in it, and words.
-type PlacedText = (usize, usize, usize, String);
 
 /// Tools as Python gives them, by their names.
 type NamedTools<'py> = BTreeMap<Option<String>, Bound<'py, PyAny>>;

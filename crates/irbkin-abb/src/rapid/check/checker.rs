@@ -127,7 +127,12 @@ pub fn check<const N: usize>(
 ) -> Result<Checked<N>, Error> {
     arm.configuration_rule()?;
     check_options(&options.motion)?;
-    check_texts(modules)?;
+    for (module, source) in modules {
+        if source.len() != module.text_length {
+            let (found, wanted) = (source.len(), module.text_length);
+            return Err(RapidFault::nowhere(RapidFaultKind::OtherText { found, wanted }).into());
+        }
+    }
     let max_velocity = velocities(arm, &options.motion)?.unwrap_or([f64::INFINITY; N]);
     let flange = with_flange(arm)?;
     let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
@@ -185,17 +190,6 @@ pub fn check<const N: usize>(
     let mut findings = sorted(found, cases, &modules);
     findings.retain(|it| options.codes.is_none_or(|codes| codes.contains(&it.code)));
     Ok(Checked { findings, moves })
-}
-
-/// Check that the texts are those of the modules.
-pub(in crate::rapid) fn check_texts(modules: &[(&Module, &str)]) -> Result<(), Error> {
-    for (module, source) in modules {
-        if source.len() != module.text_length {
-            let (found, wanted) = (source.len(), module.text_length);
-            return Err(RapidFault::nowhere(RapidFaultKind::OtherText { found, wanted }).into());
-        }
-    }
-    Ok(())
 }
 
 /// A move that is not followed, as one that is not checked.

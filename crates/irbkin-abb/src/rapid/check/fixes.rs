@@ -62,7 +62,7 @@ pub(super) fn correct(demands: &[Demand<'_>], finder: &Finder<'_, '_>, found: &m
 const MOST_NAMES: usize = 8;
 
 /// The confdata of a target in a text.
-pub(in crate::rapid) struct Written {
+pub(super) struct Written {
     module: usize,
     span: Range<usize>,
     /// Its numbers, if it is written as such.
@@ -71,12 +71,12 @@ pub(in crate::rapid) struct Written {
 
 impl Written {
     /// Where it begins: no two begin at the same byte.
-    pub(in crate::rapid) fn begin(&self) -> (usize, usize) {
+    fn begin(&self) -> (usize, usize) {
         (self.module, self.span.start)
     }
 
     /// The edits from one configuration to another: only numbers that differ.
-    pub(in crate::rapid) fn edits(&self, from: Configuration, to: Configuration) -> Vec<Edit> {
+    fn edits(&self, from: Configuration, to: Configuration) -> Vec<Edit> {
         let Some(numbers) = &self.numbers else {
             let Configuration { cf1, cf4, cf6, cfx } = to;
             let text = alloc::format!("[{cf1},{cf4},{cf6},{cfx}]");
@@ -95,9 +95,9 @@ impl Written {
 }
 
 /// A finder of confdata in the texts of a program.
-pub(in crate::rapid) struct Finder<'a, 'm> {
-    pub(in crate::rapid) program: &'a Program<'m>,
-    pub(in crate::rapid) sources: &'a [&'a str],
+pub(super) struct Finder<'a, 'm> {
+    pub(super) program: &'a Program<'m>,
+    pub(super) sources: &'a [&'a str],
 }
 
 /// A place from which names are looked up: a module and a routine of it.
@@ -105,7 +105,7 @@ type At<'a> = (usize, Option<&'a str>);
 
 impl Finder<'_, '_> {
     /// The confdata of the target of a move in a module; `None` if it is calculated.
-    pub(in crate::rapid) fn of(&self, module: usize, step: &Move) -> Option<Written> {
+    pub(super) fn of(&self, module: usize, step: &Move) -> Option<Written> {
         self.within(step.target_span.clone(), (module, step.routine.as_deref()), MOST_NAMES)
     }
 

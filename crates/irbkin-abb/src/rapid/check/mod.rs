@@ -3,7 +3,7 @@
 pub(super) mod checker;
 mod corners;
 mod findings;
-pub(super) mod fixes;
+mod fixes;
 mod loading;
 pub(super) mod tasks;
 pub(super) mod undeclared;
