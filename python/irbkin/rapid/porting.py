@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from irbkin import Robot
 from irbkin._core import Checked, port_program, read_modules
+from irbkin._files import replaced
 from irbkin._words import counted
 from irbkin.rapid.program import ModuleFile, Program, edited, program_of
 
@@ -161,7 +162,8 @@ def _written(files: Sequence[ModuleFile], folder: Path) -> list[ModuleFile]:
         for file in files:
             path = folder / os.path.relpath(os.path.abspath(file.path), top)
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(file.content)
+            with replaced(path) as stream:
+                stream.write(file.content)
             there.append(replace(file, path=str(path)))
     except BaseException:
         # The folder was new or empty: half a program is none.

@@ -37,8 +37,7 @@
 //! 8. `program`: modules that know each other, and their moves in the order of calls, with the
 //!    values that arguments, assignments and loops give them.
 //! 9. `motion`: a routine as one motion, followed, timed and checked.
-//! 10. `check`: all moves of a program checked, with corrections of confdata.
-//! 11. `port`: the confdata of a program for another arm.
+//! 10. `check`: all moves of a program checked, with corrections of confdata; a program ported.
 
 mod calc;
 mod check;
@@ -46,7 +45,6 @@ mod data;
 mod expression;
 mod module;
 mod motion;
-mod port;
 mod program;
 mod resolve;
 mod statements;
@@ -61,6 +59,7 @@ pub use self::calc::units::{Unit, UnitAxis, Units};
 pub use self::calc::wrong::error_name;
 pub use self::check::checker::Carried;
 pub use self::check::checker::{CheckOptions, Checked, CheckedMove, check};
+pub use self::check::port::{FIRST_TAG, port};
 pub use self::check::tasks::Task;
 pub use self::check::undeclared::candidates;
 pub use self::data::finding::{Code, Edit, Finding, Severity};
@@ -78,7 +77,7 @@ pub use self::module::read::{decode, parse, parse_record, read};
 pub use self::module::write::{NewValue, rewrite};
 pub use self::motion::drive::MotionOptions;
 pub use self::motion::routine::{MotionMove, RoutineMotion, motion};
-pub use self::port::{FIRST_TAG, port};
+
 pub use self::text::fault::RapidFault;
 
 /// What the faces use of RAPID besides its public names.

@@ -5,6 +5,7 @@ mod corners;
 mod findings;
 mod fixes;
 mod loading;
+pub(super) mod port;
 pub(super) mod tasks;
 pub(super) mod undeclared;
 mod world_zones;

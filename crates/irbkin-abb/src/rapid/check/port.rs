@@ -168,11 +168,14 @@ impl<const N: usize> Posture<N> {
 /// The postures at the targets of all runs; `None` where there is none.
 type Chosen<const N: usize> = Vec<Vec<Option<Posture<N>>>>;
 
-/// The most confdata that are tried for targets of which moves do not have theirs.
-const MOST_TRIALS: usize = 1000;
+/// How many moves are chosen anew, at most, for targets of which moves do not have the confdata.
+const MOST_TRIED: usize = 1_000_000;
 
 /// The most postures of a target that are compared.
 const MOST_POSTURES: usize = 16;
+
+/// The most of them while no confdata are given.
+const MOST_FREE: usize = 6;
 
 /// The cost of a line that cannot be followed, and of a move that cannot have the confdata of its
 /// target [rad^2]: more than all other moves of a program.
@@ -223,45 +226,60 @@ impl<'a, const N: usize> Porter<'a, N> {
         all
     }
 
-    /// The confdata that change.
+    /// The confdata that change: from those of the postures nearest to the old ones and, if moves
+    /// cannot have them, from those that moves would have without each other.
     fn solved(mut self) -> Result<Vec<(usize, Configuration)>, Error> {
-        let nearest = |run: &PortedRun<N>| {
-            let first = |all: &Vec<[f64; N]>| all.first().map(|q| Posture::at(*q));
-            run.candidates.iter().map(first).collect()
-        };
-        let first = if self.has_source {
-            self.runs.iter().map(nearest).collect()
-        } else {
-            self.chosen()?.0
-        };
-        for (tag, all) in self.wanted(&first)? {
-            self.pinned.insert(tag, all[0]);
+        let mut best = (f64::INFINITY, BTreeMap::new());
+        if self.has_source {
+            let nearest = |run: &PortedRun<N>| {
+                let first = |all: &Vec<[f64; N]>| all.first().map(|q| Posture::at(*q));
+                run.candidates.iter().map(first).collect()
+            };
+            let nearest: Chosen<N> = self.runs.iter().map(nearest).collect();
+            best = self.improved(&nearest)?;
         }
+        if best.0 >= BROKEN {
+            self.pinned.clear();
+            let (free, _) = self.chosen()?;
+            let other = self.improved(&free)?;
+            if other.0 < best.0 {
+                best = other;
+            }
+        }
+        self.pinned = best.1;
+        Ok(self.changed())
+    }
+
+    /// The confdata of postures, others in place of those that moves cannot have, and what all cost.
+    fn improved(
+        &mut self,
+        first: &Chosen<N>,
+    ) -> Result<(f64, BTreeMap<usize, Configuration>), Error> {
+        self.pinned = self.wanted(first)?.into_iter().map(|(tag, all)| (tag, all[0])).collect();
         let (mut chosen, mut cost) = self.chosen()?;
-        let mut trials = 0;
-        loop {
-            let before = cost;
+        let moves: usize = self.runs.iter().map(|run| run.goals.len()).sum();
+        let mut tried = 0;
+        let mut before = f64::INFINITY;
+        while cost < before && tried < MOST_TRIED {
+            before = cost;
             for tag in self.unmet(&chosen) {
-                let others = self.others(tag)?;
-                trials += others.len();
-                if trials > MOST_TRIALS {
-                    return Ok(self.changed());
-                }
                 let Some(mut best) = self.pinned.get(&tag).copied() else { continue };
-                for other in others {
+                for other in self.others(tag)? {
                     self.pinned.insert(tag, other);
                     let (_, own) = self.chosen()?;
                     if own < cost {
                         (best, cost) = (other, own);
                     }
+                    tried += moves;
                 }
                 self.pinned.insert(tag, best);
-            }
-            if cost >= before {
-                return Ok(self.changed());
+                if tried >= MOST_TRIED {
+                    break;
+                }
             }
             chosen = self.chosen()?.0;
         }
+        Ok((cost, self.pinned.clone()))
     }
 
     /// The confdata that a target may have in any of its moves.
@@ -443,7 +461,10 @@ impl<'a, const N: usize> Porter<'a, N> {
             }));
         }
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        found.truncate(MOST_POSTURES);
+        found.truncate(if self.pinned.is_empty() { MOST_FREE } else { MOST_POSTURES });
+        // Those that cost more are never better: any other follows from the best by a break.
+        let most = found.first().map_or(0.0, |it| it.cost + BROKEN);
+        found.retain(|it| it.cost < most);
         Ok(found)
     }
 
