@@ -1,6 +1,6 @@
 """Files of a ported program: where they are written, and what is found in them."""
 
-from pathlib import Path
+import contextlib
 
 import irbkin
 import pytest
@@ -47,14 +47,15 @@ def test_half_a_program_is_not_left(tmp_path, monkeypatch):
     program = rapid.load_program([tmp_path / "a.mod", tmp_path / "b.mod"])
     written = []
 
-    def write(path, content):
+    @contextlib.contextmanager
+    def full(path):
         written.append(path)
         if len(written) == 2:
             raise OSError(28, "No space left on device")
         with open(path, "wb") as file:
-            return file.write(content)
+            yield file
 
-    monkeypatch.setattr(Path, "write_bytes", write)
+    monkeypatch.setattr("irbkin.rapid.porting.replaced", full)
     with pytest.raises(OSError, match="No space"):
         rapid.port(program, ARM, source=SOURCE, to=tmp_path / "new")
     assert len(written) == 2
