@@ -59,7 +59,6 @@ impl<'a> Reader<'a> {
         Err(self.fault(field, if is_long { long } else { truncated }))
     }
 
-    /// The next bytes, `length` of them.
     fn take(&mut self, length: u64, field: &'static str) -> Read<Reader<'a>> {
         let left = self.bytes.len() - self.at;
         match usize::try_from(length) {
@@ -135,7 +134,6 @@ pub(super) trait Field {
     fn take(&mut self, wire: u64, from: &mut Reader, field: &'static str) -> Read<()>;
 }
 
-/// A message by its fields.
 pub(super) trait Message: Default {
     fn put_fields(&self, out: &mut Vec<u8>);
     /// Read the field of this number, if there is one.

@@ -247,7 +247,6 @@ impl<'a, const N: usize> Table<'a, N> {
         self.rows.push(TableRow { kind, text, line, q, configuration, distances, finding });
     }
 
-    /// The joint angles of a target.
     fn solved(&self, target: &RobTarget, frames: OrFinding<Frames>) -> Solved<N> {
         let refused = |error: Error| Box::new(not_solved(&error));
         let pose = frames?.flange(&target_pose(target).map_err(refused)?);

@@ -12,7 +12,6 @@ use irbkin::Pose;
 /// Angle above which an axis does not exist [deg]: no joint turns so far, and RAPID writes 9E9.
 pub(in crate::rapid) const MOST_DEGREES: f64 = 1e6;
 
-/// The components of extjoint.
 pub(in crate::rapid) const EXTERNAL_AXES: [&str; 6] =
     ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"];
 

@@ -40,7 +40,6 @@ fn named(error: &Error) -> String {
     format!("{name}{error}")
 }
 
-/// A target without joint angles.
 pub(in crate::rapid) fn not_solved(error: &Error) -> Finding {
     let code = match error {
         Error::Robot(RobotError::Unreachable(
@@ -130,7 +129,6 @@ pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) 
     Some(if is_joint { finding.of_joint(farthest + 1) } else { finding })
 }
 
-/// No line or arc between two targets.
 pub(in crate::rapid) fn no_path(error: &MotionError) -> Box<Finding> {
     let words = match error {
         MotionError::InvalidMotion(MotionFault::HalfTurn { angle, .. }) => format!(

@@ -390,7 +390,6 @@ impl<'a, 'm, const N: usize> Checker<'a, 'm, N> {
         nearest.is_some_and(|(q, _)| self.robots[1].configuration(&q) == Ok(to))
     }
 
-    /// A move that touches something in the cell.
     fn collision(&mut self, step: &Move, along: &[[f64; N]]) -> Option<Finding> {
         let names = carried_by(step, self.carried);
         let (_, checker) = self.carrying.iter_mut().find(|(own, _)| **own == names)?;

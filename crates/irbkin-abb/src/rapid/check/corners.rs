@@ -156,7 +156,6 @@ impl<const N: usize> Zones<'_, '_, N> {
         })
     }
 
-    /// A move with too large a zone.
     fn too_large(&self, index: usize) -> Option<Finding> {
         let goal = &self.goals[index];
         let zone = goal.zone?;

@@ -12,7 +12,6 @@ use crate::rapid::data::module::Module;
 /// leads to it with arguments, and what is particular in words.
 pub(super) type Case = (Place, (usize, usize), Option<Place>, String);
 
-/// Findings in the order of the text, each once.
 pub(super) fn sorted(
     mut found: Vec<Finding>,
     mut cases: Vec<Case>,

@@ -22,10 +22,8 @@ use crate::rapid::program::whole::Program;
 use crate::rapid::text::words::words_of;
 use irbkin::{Interrupt, Interrupted};
 
-/// A name as it is declared.
 #[derive(Default)]
 struct Declared {
-    /// The kind of its values, if it is known.
     kind: Option<&'static str>,
     /// Why no statement may assign it.
     fixed: Option<&'static str>,
@@ -377,7 +375,6 @@ impl<'m> Loading<'_, 'm> {
         }
     }
 
-    /// A finding at the statement.
     fn finding(&self, code: Code, words: String) -> Finding {
         Finding::new(code, words).at_statement(self.statement, 0).in_module(self.module)
     }

@@ -39,7 +39,6 @@ enum Shape {
 /// A zone that stops the robot.
 pub(super) struct WorldZone {
     name: String,
-    /// The line of its definition.
     line: usize,
     shape: Shape,
     /// Whether it must not be entered; else it must not be left.

@@ -12,7 +12,6 @@ use crate::rapid::text::place::excerpt;
 /// A name in an expression: of the text that is read or, in a module, its own.
 pub(crate) type Name<'a> = Cow<'a, str>;
 
-/// An expression and the bytes that it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Expression<'a> {
     pub(crate) start: usize,
@@ -47,7 +46,6 @@ impl<'a> Expression<'a> {
         self.parts().iter().for_each(|part| part.collect_names(names));
     }
 
-    /// The expressions that it is made of.
     pub(crate) fn parts(&self) -> Vec<&Self> {
         match &self.form {
             Form::Reference(it) => it.indices.iter().collect(),
@@ -108,7 +106,6 @@ fn all_owned(expressions: Vec<Expression<'_>>, begin: usize) -> Vec<Expression<'
     all
 }
 
-/// The form of an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form<'a> {
     Number(f64),
@@ -133,7 +130,6 @@ pub(crate) enum Form<'a> {
     Unread(Box<Reason>, Vec<Expression<'a>>),
 }
 
-/// A name, perhaps with indices, perhaps with components.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Reference<'a> {
     pub(crate) name: Name<'a>,
@@ -141,7 +137,6 @@ pub(crate) struct Reference<'a> {
     pub(crate) components: Vec<Name<'a>>,
 }
 
-/// A function with its arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Call<'a> {
     pub(crate) name: Name<'a>,
@@ -167,7 +162,6 @@ pub(crate) struct Optional<'a> {
 }
 
 impl Optional<'_> {
-    /// Whether it has a name, in any case.
     pub(crate) fn is(&self, name: &str) -> bool {
         self.name.eq_ignore_ascii_case(name)
     }
@@ -205,7 +199,6 @@ pub(crate) enum Operator {
     Mod,
 }
 
-/// A relation of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Relation {
     Equal,
@@ -217,7 +210,6 @@ pub(crate) enum Relation {
 }
 
 impl Relation {
-    /// Whether it holds.
     pub(crate) fn holds(self, left: f64, right: f64) -> bool {
         match self {
             Self::Equal => left.total_cmp(&right).is_eq(),

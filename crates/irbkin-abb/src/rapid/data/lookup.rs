@@ -13,7 +13,6 @@ impl MoveInstruction {
 }
 
 impl Effect {
-    /// The effect of an instruction.
     pub(crate) fn of(instruction: &str) -> Self {
         match Entry::instruction(instruction) {
             Some(entry) if entry.moves_unread() => Self::Moves,

@@ -109,7 +109,6 @@ impl Datum {
 }
 
 impl RoutineKind {
-    /// The keyword that ends it.
     pub(crate) fn end(self) -> &'static str {
         match self {
             Self::Proc => "ENDPROC",
@@ -137,7 +136,6 @@ pub struct Routine {
     pub(crate) data_type: Option<DataType>,
 }
 
-/// A parameter of a routine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Parameter {
     /// Name in lower case.
@@ -185,7 +183,6 @@ pub struct Module {
     /// Values that refer to assigned data, as they are written, by the index of the datum: as
     /// numbers they would no longer refer to them.
     pub(crate) expressions: BTreeMap<usize, String>,
-    /// The types that it defines.
     pub(crate) types: OwnTypes,
     /// The components of its own data of records that a program defines, by their names in lower
     /// case, such as `station.p`.

@@ -36,9 +36,7 @@ pub(super) const AFTER: Layout = &[Others, Target, Speed, Zone, Tool];
 
 /// An instruction that moves and is read.
 pub(crate) struct MoveInstruction {
-    /// Its name in RAPID.
     pub(crate) name: &'static str,
-    /// How it moves.
     pub(crate) way: MoveKind,
     pub(super) layout: Layout,
 }

@@ -7,15 +7,12 @@ use alloc::vec::Vec;
 /// Most names that stand for one another, and records in records.
 pub(crate) const DEEPEST_TYPE: usize = 8;
 
-/// A type that a program defines.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OwnType {
     pub(crate) of: Definition,
-    /// Whether only its own module may use it.
     pub(crate) is_local: bool,
 }
 
-/// How a type is defined.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Definition {
     /// As another name of a type.
@@ -24,5 +21,4 @@ pub(crate) enum Definition {
     Record(Vec<(String, String)>),
 }
 
-/// Types by their names.
 pub(crate) type OwnTypes = BTreeMap<String, OwnType>;

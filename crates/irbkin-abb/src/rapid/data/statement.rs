@@ -86,7 +86,6 @@ impl StatementKind {
     }
 }
 
-/// An assignment.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Assignment {
     /// The name of the datum, as it is written.
@@ -97,7 +96,6 @@ pub(crate) struct Assignment {
     pub(crate) to: (String, String),
 }
 
-/// An instruction, or a call of a routine.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{word} {}", if *.is_motion { MOTION } else { "is not an instruction that is read" })]
 pub(crate) struct Instruction {

@@ -10,12 +10,10 @@ use irbkin::Configuration;
 
 #[derive(Debug)]
 pub(crate) struct Type {
-    /// Its name in RAPID.
     pub(crate) name: &'static str,
     pub(crate) shape: Shape,
 }
 
-/// How a type is made up.
 #[derive(Debug)]
 pub(crate) enum Shape {
     Num,
@@ -166,7 +164,6 @@ pub(crate) type Atoms = ArrayVec<Atom, MOST_ATOMS>;
 /// Atoms that a value is made of, one after the other.
 pub(crate) type Source = arrayvec::IntoIter<Atom, MOST_ATOMS>;
 
-/// Whether every number is finite.
 pub(crate) fn are_finite(atoms: &Atoms) -> bool {
     atoms.iter().all(|atom| !matches!(atom, Atom::Num(number) if !number.is_finite()))
 }
@@ -180,7 +177,6 @@ pub(crate) trait Part: Sized {
     fn take(atoms: &mut Source) -> Option<Self>;
 }
 
-/// A part with a type of its own.
 pub(crate) trait Record: Part {
     const TYPE: &'static Type;
 }

@@ -11,7 +11,6 @@ use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::text::fault::RapidFaultKind;
 
-/// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;
 
 /// The sizes and the value of a declaration, as they are written.
@@ -37,7 +36,6 @@ impl Placed {
 }
 
 impl WrittenContent<'_> {
-    /// Evaluate the content.
     pub(crate) fn evaluate(&self, evaluator: &Evaluator<'_, '_>) -> Result<Placed, Stop> {
         let sizes = self.sizes(evaluator)?;
         let Some(expression) = &self.value else {

@@ -53,7 +53,6 @@ impl DirectReader<'_> {
         is.then_some(())
     }
 
-    /// Read the atoms of a type.
     fn fill(&mut self, of: &Type, atoms: &mut Atoms) -> Option<()> {
         atoms.push(match of.shape {
             // RAPID has no negative zero.

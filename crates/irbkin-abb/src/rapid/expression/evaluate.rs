@@ -75,7 +75,6 @@ impl core::fmt::Display for Component<'_> {
 }
 
 impl Evaluator<'_, '_> {
-    /// Evaluate to a value of a type.
     pub(crate) fn value(
         &self,
         expression: &Expression<'_>,
@@ -91,7 +90,6 @@ impl Evaluator<'_, '_> {
         T::take(&mut atoms.into_iter()).ok_or_else(|| Reason::Unfinished.into())
     }
 
-    /// The atoms of a value of a type.
     pub(crate) fn atoms(
         &self,
         expression: &Expression<'_>,
@@ -102,7 +100,6 @@ impl Evaluator<'_, '_> {
         Ok(atoms)
     }
 
-    /// The name of the evaluated item, for a message.
     pub(crate) fn thing(&self) -> String {
         format!("{} {}", self.thing.0, self.thing.1)
     }
@@ -122,7 +119,6 @@ impl Evaluator<'_, '_> {
         self.fault(expression, RapidFaultKind::ComponentType { thing, part, found, wanted })
     }
 
-    /// Append the atoms of an expression.
     fn fill(
         &self,
         expression: &Expression<'_>,
@@ -208,7 +204,6 @@ impl Evaluator<'_, '_> {
         Ok(())
     }
 
-    /// A number, which must be finite.
     pub(super) fn finite(&self, expression: &Expression<'_>, value: f64) -> Result<f64, Stop> {
         if value.is_finite() {
             return Ok(value);
@@ -279,7 +274,6 @@ enum Quantity {
 }
 
 impl Evaluator<'_, '_> {
-    /// Append the value of operators.
     pub(super) fn fill_operators(
         &self,
         expression: &Expression<'_>,
@@ -323,7 +317,6 @@ impl Evaluator<'_, '_> {
         self.finite(expression, result)
     }
 
-    /// Two numbers combined.
     fn combined(
         &self,
         expression: &Expression<'_>,

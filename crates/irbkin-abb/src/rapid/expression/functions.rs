@@ -35,7 +35,6 @@ pub(crate) fn result_of(name: &str) -> Option<&'static str> {
     Function::named(name).map(|it| it.result.name)
 }
 
-/// A function of RAPID.
 pub(super) struct Function {
     name: &'static str,
     required: &'static [&'static Type],
@@ -247,7 +246,6 @@ impl Evaluator<'_, '_> {
         Ok(())
     }
 
-    /// The arguments of a call.
     fn given(
         &self,
         expression: &Expression<'_>,

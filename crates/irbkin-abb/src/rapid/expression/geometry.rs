@@ -32,7 +32,6 @@ pub(super) fn rel_tool(target: &RobTarget, shift: [f64; 3], turns: [f64; 3]) -> 
     displaced
 }
 
-/// A rotation about x, y or z.
 fn turn_about(axis: usize, degrees: f64) -> [f64; 4] {
     let (sin, cos) = constant_sin_cos(0.5 * degrees.to_radians());
     let mut about = [cos, 0.0, 0.0, 0.0];
@@ -68,7 +67,6 @@ fn norm_squared(rot: [f64; 4]) -> f64 {
     rot.iter().map(|component| component * component).sum()
 }
 
-/// A quaternion of norm 1.
 pub(super) fn normalized(rot: [f64; 4]) -> [f64; 4] {
     let norm = norm_squared(rot).sqrt();
     rot.map(|component| component / norm)
@@ -129,7 +127,6 @@ pub(super) fn euler_zyx(rot: [f64; 4]) -> [f64; 3] {
     [sin_z.atan2(cos_z), (-x[2]).atan2(cos_y), about_x].map(f64::to_degrees)
 }
 
-/// The axes x, y and z of a rotation.
 fn axes(rot: [f64; 4]) -> [[f64; 3]; 3] {
     let axis = |axis: usize| {
         let mut unit = [0.0; 3];

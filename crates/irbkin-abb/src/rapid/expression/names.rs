@@ -15,9 +15,7 @@ use crate::rapid::data::unread::{AssignedBy, Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use irbkin_motion::internal::PREDEFINED as ZONES;
 
-/// A scope of names.
 pub(crate) trait Names {
-    /// Find what a name refers to at a place.
     fn find(&self, at: At, name: &str) -> Lookup<'_>;
 
     /// An element, from 0, of an array of a size, by the text of an index that is not known; every
@@ -69,7 +67,6 @@ pub(crate) struct At {
     pub(crate) inside_loop: Option<usize>,
 }
 
-/// The result of looking up a name.
 pub(crate) enum Lookup<'r> {
     Datum {
         content: &'r Content,
@@ -125,7 +122,6 @@ pub(crate) fn lower(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// An empty scope, for expressions without names.
 pub(crate) struct NoNames;
 
 impl Names for NoNames {
@@ -158,7 +154,6 @@ fn zone(index: usize) -> ZoneData {
     }
 }
 
-/// The names of RAPID's own data of a type.
 pub(crate) fn predefined_names(data_type: DataType) -> Vec<String> {
     match data_type {
         DataType::ToolData => Vec::from(["tool0".to_string()]),

@@ -60,7 +60,6 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Self { tokens, depth: 0, within: Within::Condition }
     }
 
-    /// The expression that begins at the next token.
     pub(crate) fn expression(&mut self) -> Result<Expression<'a>, RapidFault> {
         if self.within == Within::Value
             && let Some(alone) = self.alone()?
@@ -197,7 +196,6 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         if self.tokens.take_if(close)? { Ok(()) } else { Err(not_closed(self.tokens, open, close)) }
     }
 
-    /// Whether an expression may end before the next token.
     fn may_end(&self) -> bool {
         match self.tokens.peek().kind {
             _ if self.within != Within::Value => true,

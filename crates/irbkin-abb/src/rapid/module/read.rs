@@ -96,7 +96,6 @@ fn decode_units(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
     characters.chain(rest.iter().map(|_| char::REPLACEMENT_CHARACTER)).collect()
 }
 
-/// Types that are determined by their shapes.
 const BY_SHAPE: [DataType; 6] = [
     DataType::RobTarget,
     DataType::JointTarget,

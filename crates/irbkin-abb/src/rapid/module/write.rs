@@ -109,7 +109,6 @@ impl Move {
         required
     }
 
-    /// Write the options after a number of required arguments.
     fn write_options(&self, f: &mut fmt::Formatter<'_>, after: usize) -> fmt::Result {
         let mut options = self.options.iter().filter(|option| option.after == after);
         options.try_for_each(|option| write_option(f, &option.name, option.text.as_deref()))

@@ -60,7 +60,6 @@ impl<const N: usize> Default for MotionOptions<N> {
 pub(in crate::rapid) struct Made<const N: usize> {
     /// The joints at its target, if it is met or passed.
     pub(in crate::rapid) q: Option<[f64; N]>,
-    /// Whether it is made as it is programmed.
     pub(in crate::rapid) as_programmed: bool,
     /// Whether the corner at its end is rounded.
     pub(in crate::rapid) is_rounded: bool,
@@ -73,7 +72,6 @@ struct Entry {
     leg: Leg,
 }
 
-/// Where the robot is.
 pub(super) struct Here<const N: usize> {
     pub(super) q: [f64; N],
     flange: Pose,
@@ -189,7 +187,6 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         q
     }
 
-    /// Make a move.
     fn make(&mut self, index: usize) -> Result<Made<N>, Error> {
         let goal = &self.goals[index];
         let entry = self.entry.take();

@@ -48,11 +48,9 @@ pub(in crate::rapid) struct Goal<'m, const N: usize> {
     /// Where it is known, with its tool and its work object.
     pub(in crate::rapid) place: Option<Place<N>>,
     pub(in crate::rapid) frames: Rc<Frames>,
-    /// The point on the circle.
     pub(in crate::rapid) via: Option<Box<Pose>>,
     /// The corner at its end; none if the target is met.
     pub(in crate::rapid) zone: Option<Zone>,
-    /// Whether the robot stops at its end.
     pub(in crate::rapid) stops: bool,
     /// Speed of the tool [m/s] and of its reorientation [rad/s]; infinite where they are unknown.
     pub(in crate::rapid) speed: [f64; 2],
@@ -171,7 +169,6 @@ fn old_confdata(cfx: i32, now: Option<Configuration>) -> Finding {
     Finding::new(Code::OldConfdata, words)
 }
 
-/// The destination of a move.
 fn placed<const N: usize>(
     robot: &Robot<N>,
     step: &Move,
@@ -195,7 +192,6 @@ fn placed<const N: usize>(
     }
 }
 
-/// The point on a circle.
 fn pose_of(step: &Move, via: &Argument<RobTarget>) -> OrFinding<Pose> {
     if let Some(line) = step.displaced {
         return Err(displaced(line).into());
@@ -258,7 +254,6 @@ fn speed_of(step: &Move, found: &mut impl FnMut(Finding)) -> [f64; 2] {
     }
 }
 
-/// The duration of `\T`.
 fn time_of(step: &Move, found: &mut impl FnMut(Finding)) -> Option<f64> {
     match step.time.as_deref()? {
         Ok(time) if *time > 0.0 => return Some(*time),

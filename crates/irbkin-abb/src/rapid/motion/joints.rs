@@ -31,7 +31,6 @@ pub(in crate::rapid) struct Samples<const N: usize> {
     pub(in crate::rapid) ends: Vec<usize>,
     /// How many there are before the first move: 1 if a start is given.
     pub(in crate::rapid) first: usize,
-    /// How many are forgotten.
     pub(super) forgotten: usize,
 }
 

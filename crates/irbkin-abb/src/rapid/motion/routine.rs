@@ -75,7 +75,6 @@ pub struct MotionMove<const N: usize = 6> {
     pub as_programmed: bool,
     /// The tool in the flange frame; of a stationary tool, the work object that the robot carries.
     pub tool: Pose,
-    /// The instruction with its arguments.
     pub(super) step: Move,
 }
 
@@ -146,7 +145,6 @@ pub(in crate::rapid) struct Followed<'m, const N: usize> {
     pub(in crate::rapid) made: Vec<Made<N>>,
     /// Findings on goals.
     pub(in crate::rapid) findings: Vec<Finding>,
-    /// Findings on what is not followed.
     pub(in crate::rapid) unfollowed: Vec<Finding>,
 }
 
@@ -251,7 +249,6 @@ pub(in crate::rapid) fn goals<'m, const N: usize>(
     goals
 }
 
-/// The moves with their times.
 fn moves<const N: usize>(
     goals: &[Goal<'_, N>],
     samples: &Samples<N>,
@@ -328,7 +325,6 @@ fn chosen(module: &Module, wanted: Option<&str>) -> Result<Option<String>, Error
     Err(fault(0, RoutineFault::Which { moving: moving.into_iter().flatten().collect() }))
 }
 
-/// A motion to be timed.
 pub(super) struct Pace<'a, 'm, const N: usize> {
     pub(super) samples: &'a Samples<N>,
     pub(super) goals: &'a [Goal<'m, N>],

@@ -22,7 +22,6 @@ use crate::rapid::data::value::{DataType, Value};
 /// The name of what a function returns: no name of RAPID.
 const RETURNED: &str = "RETURN";
 
-/// Most calls within calls.
 const DEEPEST_CALLS: usize = 32;
 
 /// The statements that a call takes as long as, beside its routine [1].
@@ -258,7 +257,6 @@ impl<'m> Walk<'_, 'm> {
         bound
     }
 
-    /// Put an argument in for a parameter.
     fn bind(
         &mut self,
         (whole, start, site): (&str, usize, &Rc<Site>),

@@ -50,7 +50,6 @@ impl Case {
     }
 }
 
-/// Most open questions that are kept.
 const MOST_QUESTIONS: usize = 32;
 
 /// Open questions that have the same answer when they are asked again: with the words in lower case
@@ -299,7 +298,6 @@ impl Choices {
         made[place].0
     }
 
-    /// End a way with its value.
     pub(super) fn end<T>(&self, value: T) -> Way<T> {
         let words = self.words.take().join(" and ");
         Way { case: self.case.take(), words, assumed: self.assumed.take(), value }

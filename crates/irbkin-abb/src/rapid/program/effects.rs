@@ -38,7 +38,6 @@ pub(super) struct Acts {
     assigns: bool,
     /// The data that it assigns by itself.
     own: BTreeSet<DatumId>,
-    /// The parameters that it assigns, by their names.
     assigned_parameters: BTreeSet<String>,
 }
 
@@ -49,7 +48,6 @@ impl Acts {
     }
 }
 
-/// The assignments of a datum.
 pub(super) struct Assigned {
     /// The module and the line of the first one.
     pub(super) by: (usize, usize),
@@ -77,18 +75,15 @@ impl Assigned {
     }
 }
 
-/// A call of a procedure.
 struct Call<'m> {
     line: usize,
     to: Name,
     arguments: &'m Arguments<'static>,
 }
 
-/// The effects of the routines of a program.
 #[derive(Default)]
 pub(super) struct Effects<'m> {
     of_routines: BTreeMap<Name, Acts>,
-    /// The calls of each routine.
     calls: BTreeMap<Name, Vec<Call<'m>>>,
     pub(super) assigned: BTreeMap<DatumId, Assigned>,
     /// The data that a routine assigns to which they are passed.
@@ -121,7 +116,6 @@ impl<'m> Effects<'m> {
         effects
     }
 
-    /// The data that traps and handlers assign.
     fn of_interrupts(&self, names: &Index<'_>) -> BTreeSet<DatumId> {
         let (mut found, mut called) = (BTreeSet::new(), Vec::new());
         for (module, bodies) in names.bodies.iter().enumerate() {
@@ -138,7 +132,6 @@ impl<'m> Effects<'m> {
         found
     }
 
-    /// The effects of a routine.
     pub(super) fn of_routine(&self, module: usize, lower: &str) -> Option<&Acts> {
         self.of_routines.get(&(module, String::from(lower)))
     }
@@ -290,7 +283,6 @@ pub(super) fn releases(names: &Index<'_>, module: usize, instruction: &Instructi
     instruction.effect == Effect::Stops || name == "setleadthrough" || !is_known
 }
 
-/// Add an assignment of a datum.
 fn add(
     all: &mut BTreeMap<DatumId, Assigned>,
     datum: DatumId,

@@ -11,7 +11,6 @@ use crate::rapid::data::statement::StatementKind;
 use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::DataType;
 
-/// A datum: its module and its index there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::rapid) struct DatumId {
     pub(in crate::rapid) module: usize,
@@ -127,7 +126,6 @@ impl<'m> Index<'m> {
         self.modules.get(module)?.data.get(datum)
     }
 
-    /// The name of a datum, as it is declared.
     pub(super) fn name(&self, datum: DatumId) -> &'m str {
         self.declared(datum).map_or("", |it| &it.name)
     }

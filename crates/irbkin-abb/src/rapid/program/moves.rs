@@ -155,7 +155,6 @@ impl Scope<'_, '_> {
         }
     }
 
-    /// The displacement of targets behind an instruction.
     pub(super) fn displacement(
         &self,
         statement: &Statement,
@@ -173,7 +172,6 @@ impl Scope<'_, '_> {
         }
     }
 
-    /// The offsets of external axes behind an instruction.
     pub(super) fn offsets(
         &self,
         statement: &Statement,
@@ -247,7 +245,6 @@ impl Scope<'_, '_> {
 }
 
 impl State {
-    /// Displace the targets of a move.
     pub(super) fn displace(&self, own: &mut Cow<'_, Move>) {
         let is_joints = own.kind == MoveKind::MoveAbsJ;
         let displaced = match self.displacement {
@@ -320,7 +317,6 @@ fn external_axes(step: &mut Move) -> Option<&mut [f64; 6]> {
     }
 }
 
-/// A target that a pose displaces.
 fn displaced_by(pose: &RapidPose, target: &RobTarget) -> Result<RobTarget, Error> {
     let RapidPose { trans_mm, rot } =
         rapid_pose(&(pose_in(pose, "displacement")? * target_pose(target)?));

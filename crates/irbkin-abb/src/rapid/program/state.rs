@@ -66,7 +66,6 @@ impl Local {
         Self { data_type, content: Ok(Known::certain(Content::Single(value), "")) }
     }
 
-    /// How many values it has, at least one.
     pub(super) fn size(&self) -> usize {
         self.content.as_ref().map_or(1, Known::size)
     }
@@ -146,7 +145,6 @@ impl State {
         }
     }
 
-    /// Forget the contents of some names of the routine.
     pub(super) fn forget_locals(&mut self, is_forgotten: impl Fn(&String) -> bool) {
         let known = self.locals.iter().filter(|(_, local)| local.content.is_ok());
         let lost: Vec<String> =

@@ -13,7 +13,6 @@ use crate::rapid::data::statement::{
 };
 use crate::rapid::text::words::words_of;
 
-/// Statements in the order of the text.
 pub(in crate::rapid) type Block<'m> = Vec<Node<'m>>;
 
 /// A statement, or a branch or a loop with its own.
@@ -39,9 +38,7 @@ pub(in crate::rapid) enum Node<'m> {
     },
 }
 
-/// A part of a branch.
 pub(in crate::rapid) struct Part<'m> {
-    /// Its first line.
     pub(super) head: &'m Statement,
     pub(super) condition: &'m Condition,
     pub(in crate::rapid) block: Block<'m>,
@@ -59,7 +56,6 @@ pub(super) fn size(block: &Block<'_>) -> usize {
     block.iter().map(of).sum()
 }
 
-/// The statements of a routine.
 #[derive(Default)]
 pub(in crate::rapid) struct Body<'m> {
     pub(in crate::rapid) main: Block<'m>,
@@ -94,7 +90,6 @@ struct Open<'m> {
 }
 
 impl Open<'_> {
-    /// Close the open part.
     fn close_part(&mut self) {
         let block = mem::take(&mut self.part);
         if let Some((head, condition)) = self.part_head {

@@ -228,7 +228,6 @@ impl<'m> Walk<'_, 'm> {
         }
     }
 
-    /// A block that is never executed.
     fn never_run(&mut self, head: &Statement, block: &Block<'m>) {
         if block.iter().any(|node| matches!(node, Node::Move(..) | Node::Loop { .. })) {
             let finding = Finding::new(Code::NeverRun, "what follows is never executed");
@@ -236,7 +235,6 @@ impl<'m> Walk<'_, 'm> {
         }
     }
 
-    /// A move, with the values that it has here.
     fn step(&mut self, index: usize, written: &'m Move) {
         // The robot stays.
         if written.kind == MoveKind::MoveExtJ {
@@ -402,7 +400,6 @@ impl<'m> Walk<'_, 'm> {
     }
 }
 
-/// Most passes of a loop that are followed.
 const MOST_PASSES: usize = 1000;
 
 /// Most statements in the passes of a loop that no move and no call names the counter of.

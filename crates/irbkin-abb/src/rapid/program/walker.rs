@@ -41,7 +41,6 @@ const COPIED: usize = 8;
 /// What ends the program, in words, unless that runs in a cycle.
 pub(in crate::rapid) const END_OF_MAIN: &str = "the end of main";
 
-/// A step of a program.
 pub(in crate::rapid) enum Step<'m> {
     /// A move.
     Move(Box<Stepped<'m>>),
@@ -241,7 +240,6 @@ impl<'p, 'm> Walk<'p, 'm> {
         self.uncertain.get_or_insert_with(|| (line, word.to_string()));
     }
 
-    /// Forget the data that a block assigns.
     pub(super) fn forget(&mut self, block: &Block<'m>) {
         self.state.place = Err("it depends on a branch, a loop or a label");
         self.spend(size(block));

@@ -14,7 +14,6 @@ use crate::rapid::resolve::resolver::atoms_of;
 /// The robot, as [`converter`](crate::rapid::calc::target::converter) has it.
 type Convert<'r> = &'r dyn Fn(&Target, &ToolIn, Option<&ToolIn>) -> Result<Target, Error>;
 
-/// Modules that know each other.
 pub(in crate::rapid) struct Program<'m> {
     index: Index<'m>,
     pub(super) effects: Effects<'m>,
@@ -34,7 +33,6 @@ impl<'m> Program<'m> {
         (!self.effects.assigned.contains_key(&id)).then_some(datum)
     }
 
-    /// Whether the program assigns a target with its confdata.
     pub(in crate::rapid) fn assigns_confdata(&self, target: DatumId) -> bool {
         let atoms = atoms_of(DataType::RobTarget.described(), &["robconf".into()]);
         let assigned = self.effects.assigned.get(&target);

@@ -117,7 +117,6 @@ fn add(
     Some(place)
 }
 
-/// The datum of a declaration and its content.
 fn datum_of(
     name: String,
     declared: &Declared<'_>,

@@ -37,7 +37,6 @@ struct Sharing<'a> {
 }
 
 impl<'a> Resolver<'a> {
-    /// An argument of a move, of a type.
     fn argument<T: Record>(
         &self,
         step: &WrittenMove<'a>,
@@ -65,7 +64,6 @@ impl<'a> Resolver<'a> {
         Ok(argument)
     }
 
-    /// The evaluator of an argument of a move.
     fn evaluator<'r>(&'r self, step: &WrittenMove<'a>, role: &'static str) -> Evaluator<'r, 'a> {
         Evaluator {
             text: self.text,
@@ -244,7 +242,6 @@ fn with<T: Copy>(
     argument
 }
 
-/// A value, or the reason why it is unknown.
 fn known<T>(value: Result<T, Stop>) -> Result<Known<T>, RapidFault> {
     match value {
         Ok(value) => Ok(Ok(value)),

@@ -97,7 +97,6 @@ impl<'a> Resolver<'a> {
         found
     }
 
-    /// Whether a routine has a name.
     pub(super) fn is_routine(&self, name: &str) -> bool {
         let lower = lower(name);
         let own = self.scopes.find(0, &lower);
@@ -111,7 +110,6 @@ impl<'a> Resolver<'a> {
         })
     }
 
-    /// A datum of the module.
     fn datum(&self, index: usize) -> Lookup<'_> {
         let (Some(declared), Some(Ok(Placed { content, .. }))) =
             (self.declared.get(index), self.contents.get(index))

@@ -158,7 +158,6 @@ impl<'a> Blocks<'a> {
         Ok(())
     }
 
-    /// The number of open blocks.
     pub(super) fn depth(&self) -> usize {
         self.open.len()
     }

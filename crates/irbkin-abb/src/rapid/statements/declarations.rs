@@ -21,7 +21,6 @@ use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
 use crate::rapid::text::words::is_name_token;
 
-/// The result of reading a declaration.
 #[expect(clippy::large_enum_variant, reason = "the large one is nearly every one of a large text")]
 pub(crate) enum Declaration<'a> {
     /// With its content, if that is known without looking up a name.
@@ -145,7 +144,6 @@ pub(crate) struct Declared<'a> {
 }
 
 impl<'a> Declared<'a> {
-    /// The evaluator of its sizes and its value.
     pub(crate) fn evaluator<'r>(&self, text: &'a str, names: &'r dyn Names) -> Evaluator<'r, 'a> {
         Evaluator {
             text,
@@ -197,7 +195,6 @@ fn names_of<'a>(
     (names, size_names)
 }
 
-/// A component of a datum.
 pub(crate) struct DatumPart<'a> {
     /// Its name in lower case behind the one of the datum, such as `p` or `tool.frame`.
     pub(crate) path: String,

@@ -7,7 +7,6 @@ use crate::rapid::text::skipping::at_line;
 use crate::rapid::text::tokens::Tokens;
 use irbkin::Interrupt;
 
-/// Most faults of a text that are kept.
 const MOST_FAULTS: usize = 100;
 
 /// The faults of a text. Without tolerance the first one ends the reading.
@@ -37,7 +36,6 @@ impl<'a> Faults<'a> {
         Ok(())
     }
 
-    /// Whether no further fault is kept.
     pub(crate) fn is_full(&self) -> bool {
         self.kept.len() >= MOST_FAULTS
     }

@@ -200,13 +200,11 @@ impl<'a> StatementReader<'a> {
         Ok(())
     }
 
-    /// Note that a datum gets another value.
     fn assign(&mut self, name: Name<'a>, components: Vec<Name<'a>>, line: usize) {
         let at = self.at();
         self.written.assignments.push(Assignment { at, name, components, line });
     }
 
-    /// Read the end of a statement.
     fn end(&mut self, wanted: &'static str) -> Result<(), RapidFault> {
         end_statement(&mut self.tokens, &mut self.written.faults, wanted)
     }

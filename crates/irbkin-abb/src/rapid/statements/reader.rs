@@ -50,7 +50,6 @@ pub(crate) struct Assignment<'a> {
     pub(crate) line: usize,
 }
 
-/// The position of the reader in the module.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
     /// Before anything.
@@ -63,7 +62,6 @@ pub(super) enum Stage {
     Ended,
 }
 
-/// A reader of the statements of a text.
 pub(crate) struct StatementReader<'a> {
     pub(super) tokens: Tokens<'a>,
     pub(super) types: Types<'a>,
@@ -73,7 +71,6 @@ pub(crate) struct StatementReader<'a> {
     pub(super) routine: usize,
     /// Line of the instruction that displaces the poses of the following moves in the routine.
     pub(super) displaced_by: Option<usize>,
-    /// The settings of the instructions of the routine.
     pub(super) settings: MotionSettings,
 }
 
@@ -176,7 +173,6 @@ impl Default for Scopes {
 }
 
 impl Scopes {
-    /// Begin the scope of the next routine.
     pub(crate) fn add_routine(&mut self) {
         self.names.push(BTreeMap::new());
     }

@@ -71,7 +71,6 @@ impl StatementReader<'_> {
         }
     }
 
-    /// Read a line that git leaves in a conflict.
     pub(super) fn conflict_marker(&mut self) -> Result<bool, RapidFault> {
         let start = self.tokens.peek().start;
         if !is_conflict_marker(self.tokens.text, start) {

@@ -49,7 +49,6 @@ impl<'a> StatementReader<'a> {
         Ok(reader.written)
     }
 
-    /// Check that nothing is open where the text ends.
     fn check_end(&mut self) -> Result<(), RapidFault> {
         let (inside, missing) = if let Some((word, end)) = self.written.blocks.innermost() {
             (word.to_string(), end)
@@ -209,7 +208,6 @@ impl<'a> StatementReader<'a> {
         Ok(())
     }
 
-    /// Declare the components of a datum.
     fn add_parts(&mut self, name: &str, parts: Vec<DatumPart<'a>>) {
         for DatumPart { path, declared, content } in parts {
             let (name, index) = (format!("{name}.{path}"), self.written.declared.len());

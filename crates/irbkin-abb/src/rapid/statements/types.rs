@@ -6,7 +6,6 @@ use crate::rapid::data::module::Module;
 use crate::rapid::data::own_types::{DEEPEST_TYPE, Definition, OwnTypes};
 use crate::rapid::data::value::DataType;
 
-/// The types that a module may use.
 pub(crate) struct Types<'a> {
     pub(crate) own: OwnTypes,
     pub(crate) context: &'a [&'a Module],

@@ -7,7 +7,6 @@ use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 /// Most characters of the text that a message repeats.
 const REPEATED: usize = 40;
 
-/// A byte with its line and column.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
     pub(crate) byte: usize,
@@ -16,7 +15,6 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// The first byte of a text.
     pub(crate) const BEGINNING: Self = Self { byte: 0, line: 1, column: 1 };
 
     /// The place of another byte. The time is linear in the distance, and in the length of the

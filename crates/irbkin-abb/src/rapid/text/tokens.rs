@@ -45,7 +45,6 @@ pub(crate) enum TokenKind {
     End,
 }
 
-/// A token and the bytes that it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Token {
     pub(crate) kind: TokenKind,
@@ -65,7 +64,6 @@ pub(crate) struct Tokens<'a> {
     next: Token,
     /// End of the previous token.
     pub(crate) last_end: usize,
-    /// Beginning of the last placeholder that was read.
     last_placeholder: Option<usize>,
     /// Beginning of the first token or of the header.
     begin: usize,
@@ -126,12 +124,10 @@ impl<'a> Tokens<'a> {
         tokens
     }
 
-    /// The next token, without reading it.
     pub(crate) fn peek(&self) -> Token {
         self.next
     }
 
-    /// Read the next token.
     pub(crate) fn take(&mut self) -> Result<Token, RapidFault> {
         let token = self.next;
         if token.kind == TokenKind::Invalid {
@@ -178,7 +174,6 @@ impl<'a> Tokens<'a> {
         (self.next, self.last_end) = (next, last_end);
     }
 
-    /// Read the next token if it is this symbol.
     pub(crate) fn take_if(&mut self, symbol: u8) -> Result<bool, RapidFault> {
         let is = self.next.is(symbol);
         if is {
@@ -222,7 +217,6 @@ impl<'a> Tokens<'a> {
         self.next.kind == TokenKind::Name && self.text_of(self.next).eq_ignore_ascii_case(word)
     }
 
-    /// Read the next token if it is this word.
     pub(crate) fn take_word(&mut self, word: &str) -> Result<bool, RapidFault> {
         let is = self.at_word(word);
         if is {
@@ -243,7 +237,6 @@ impl<'a> Tokens<'a> {
         self.fault(self.next.start, RapidFaultKind::Unexpected { found, wanted })
     }
 
-    /// An error at a byte.
     pub(crate) fn fault(&self, byte: usize, kind: RapidFaultKind) -> RapidFault {
         let (line, column) = self.line_and_column(byte);
         RapidFault { line, column, kind }
@@ -270,7 +263,6 @@ impl<'a> Tokens<'a> {
         self.next = Token { kind, start, end };
     }
 
-    /// The first byte after blanks and comments.
     fn skip_blanks(&self, at: usize) -> usize {
         let at = behind_blanks(self.content(), at);
         if at < self.end { at } else { self.text.len() }

@@ -19,7 +19,6 @@ pub(crate) fn end_of_word(text: &str, start: usize) -> usize {
     end + text[end..].chars().take_while(belongs).map(char::len_utf8).sum::<usize>()
 }
 
-/// The words of a text.
 pub(crate) fn words_of(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
