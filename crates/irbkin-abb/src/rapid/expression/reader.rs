@@ -12,7 +12,7 @@ use crate::rapid::data::table::Entry;
 use crate::rapid::data::unread::Reason;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::skipping::not_closed;
-use crate::rapid::text::tokens::{Called, Token, TokenKind, Tokens};
+use crate::rapid::text::tokens::{Called, Token, TokenKind, Tokens, behind_blanks};
 use crate::rapid::text::words::is_reserved;
 
 /// The deepest nesting of brackets and of blocks that is read.
@@ -121,7 +121,12 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
 
     /// A single number or name, most of a module: read without looking for operators.
     fn alone(&mut self) -> Result<Option<Expression<'a>>, RapidFault> {
-        let (first, mark) = (self.tokens.peek(), self.tokens.mark());
+        let first = self.tokens.peek();
+        let content = self.tokens.content();
+        let behind = content.get(behind_blanks(content, first.end));
+        if !matches!(behind, Some(b',' | b';' | b']' | b')' | b'\\')) {
+            return Ok(None);
+        }
         let form = match first.kind {
             TokenKind::Number(value) => Form::Number(value),
             TokenKind::Name if !is_reserved(self.tokens.text_of(first)) => {
@@ -130,10 +135,6 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             _ => return Ok(None),
         };
         self.tokens.take()?;
-        let TokenKind::Symbol(b',' | b';' | b']' | b')' | b'\\') = self.tokens.peek().kind else {
-            self.tokens.rewind(mark);
-            return Ok(None);
-        };
         Ok(Some(self.made(first.start, form)))
     }
 

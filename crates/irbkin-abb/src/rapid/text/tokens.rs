@@ -91,13 +91,6 @@ pub(crate) struct Called {
     pub(crate) wrong: Option<String>,
 }
 
-/// A position of the reader, to return to.
-#[derive(Clone, Copy)]
-pub(crate) struct Mark {
-    next: Token,
-    last_end: usize,
-}
-
 impl<'a> Tokens<'a> {
     /// Start at a text, after its `%%% ... %%%`; its first token must be valid.
     pub(crate) fn new(text: &'a str) -> Result<Self, RapidFault> {
@@ -164,16 +157,6 @@ impl<'a> Tokens<'a> {
         Ok(self.text_of(name))
     }
 
-    /// The current position.
-    pub(crate) fn mark(&self) -> Mark {
-        Mark { next: self.next, last_end: self.last_end }
-    }
-
-    /// Return to a position. No placeholder may have been read since.
-    pub(crate) fn rewind(&mut self, Mark { next, last_end }: Mark) {
-        (self.next, self.last_end) = (next, last_end);
-    }
-
     pub(crate) fn take_if(&mut self, symbol: u8) -> Result<bool, RapidFault> {
         let is = self.next.is(symbol);
         if is {
@@ -182,23 +165,15 @@ impl<'a> Tokens<'a> {
         Ok(is)
     }
 
-    /// Read the name of a component behind a point, if there is a point.
-    pub(crate) fn component(&mut self) -> Result<Option<&'a str>, RapidFault> {
-        if !self.take_if(b'.')? {
-            return Ok(None);
-        }
-        if self.next.kind != TokenKind::Name {
-            return Err(self.lacking("the name of a component"));
-        }
-        let component = self.take()?;
-        Ok(Some(self.text_of(component)))
-    }
-
     /// The names of components, each behind its point.
     pub(crate) fn components(&mut self) -> Result<Vec<Cow<'a, str>>, RapidFault> {
         let mut components = Vec::new();
-        while let Some(component) = self.component()? {
-            components.push(component.into());
+        while self.take_if(b'.')? {
+            if self.next.kind != TokenKind::Name {
+                return Err(self.lacking("the name of a component"));
+            }
+            let component = self.take()?;
+            components.push(self.text_of(component).into());
         }
         Ok(components)
     }
