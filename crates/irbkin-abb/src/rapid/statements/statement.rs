@@ -17,7 +17,7 @@ use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::DataType;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind};
-use crate::rapid::text::words::{Capitals, is_reserved};
+use crate::rapid::text::words::is_reserved;
 
 impl<'a> StatementReader<'a> {
     /// Read a whole text; with tolerance in spite of its faults.
@@ -73,12 +73,11 @@ impl<'a> StatementReader<'a> {
         if matches!(token.kind, TokenKind::Symbol(_)) && self.conflict_marker()? {
             return Ok(());
         }
-        let capitals = match token.kind {
-            TokenKind::Name => Capitals::of(self.tokens.text_of(token)),
-            TokenKind::Placeholder | TokenKind::Symbol(b'%') => Capitals::of(""),
+        let word = match token.kind {
+            TokenKind::Name => self.tokens.text_of(token).to_ascii_uppercase(),
+            TokenKind::Placeholder | TokenKind::Symbol(b'%') => String::new(),
             _ => return Err(self.tokens.unexpected("a declaration or an instruction")),
         };
-        let word = capitals.as_str();
         if word == "MODULE" {
             return self.begin_module(token);
         }
@@ -89,7 +88,7 @@ impl<'a> StatementReader<'a> {
         if self.stage == Stage::Beginning {
             self.stage = Stage::Bare;
         }
-        match word {
+        match word.as_str() {
             "ENDMODULE" => self.end_module(),
             "LOCAL" | "TASK" | "CONST" | "PERS" | "VAR" | "PROC" | "FUNC" | "TRAP" => {
                 self.declaration(token)
@@ -99,11 +98,11 @@ impl<'a> StatementReader<'a> {
             "ENDTRAP" => self.end_routine(RoutineKind::Trap),
             "RECORD" => self.record(token),
             "ALIAS" => self.alias(token),
-            _ if is_flow(word) => self.flow(word, token),
+            _ if is_flow(&word) => self.flow(&word, token),
             "RETURN" | "RAISE" | "GOTO" | "CONNECT" | "EXIT" | "RETRY" | "TRYNEXT" => {
-                self.reserved(word, token)
+                self.reserved(&word, token)
             }
-            _ if is_reserved(word) => {
+            _ if is_reserved(&word) => {
                 Err(self.tokens.unexpected("a declaration or an instruction"))
             }
             _ if token.is(b'%') => self.late_bound(token),

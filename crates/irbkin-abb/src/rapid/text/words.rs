@@ -39,39 +39,6 @@ pub(crate) fn is_name_token(word: &str) -> bool {
     word.chars().next().is_some_and(char::is_alphabetic) && !is_reserved(word)
 }
 
-/// Room for a word: more than the longest of RAPID's own takes.
-const ROOM: usize = 16;
-
-/// A word in capitals; empty if it is longer than any of RAPID's own.
-#[derive(Clone, Copy)]
-pub(crate) struct Capitals {
-    bytes: [u8; ROOM],
-    length: usize,
-}
-
-impl Capitals {
-    pub(crate) const fn of(word: &str) -> Self {
-        let mut capitals = Self { bytes: [0; ROOM], length: 0 };
-        if word.len() <= ROOM {
-            while capitals.length < word.len() {
-                let byte = word.as_bytes()[capitals.length];
-                capitals.bytes[capitals.length] = byte.to_ascii_uppercase();
-                capitals.length += 1;
-            }
-        }
-        capitals
-    }
-
-    /// The word as a number, in alphabetical order.
-    const fn number(&self) -> u128 {
-        u128::from_be_bytes(self.bytes)
-    }
-
-    pub(crate) fn as_str(&self) -> &str {
-        core::str::from_utf8(&self.bytes[..self.length]).unwrap_or_default()
-    }
-}
-
 /// RAPID's reserved words, sorted.
 #[rustfmt::skip]
 const RESERVED: [&str; 55] = [
@@ -116,20 +83,10 @@ macro_rules! words {
 }
 pub(crate) use words;
 
-/// The reserved words as numbers.
-const RESERVED_NUMBERS: [u128; RESERVED.len()] = {
-    let mut numbers = [0; RESERVED.len()];
-    let mut i = 0;
-    while i < RESERVED.len() {
-        numbers[i] = Capitals::of(RESERVED[i]).number();
-        i += 1;
-    }
-    numbers
-};
-
 /// Whether a word is one of RAPID's own.
 pub(crate) fn is_reserved(word: &str) -> bool {
-    RESERVED_NUMBERS.binary_search(&Capitals::of(word).number()).is_ok()
+    let capitals = || word.bytes().map(|byte| byte.to_ascii_uppercase());
+    RESERVED.binary_search_by(|own| own.bytes().cmp(capitals())).is_ok()
 }
 
 #[cfg(test)]
@@ -137,10 +94,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reserved_words_are_sorted_and_short() {
+    fn reserved_words_are_sorted() {
         assert!(RESERVED.is_sorted());
-        assert!(RESERVED_NUMBERS.is_sorted());
-        assert!(RESERVED.iter().all(|word| word.len() < ROOM));
     }
 
     #[test]
