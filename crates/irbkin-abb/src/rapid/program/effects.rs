@@ -9,7 +9,7 @@ use core::cell::Cell;
 use core::ops::Range;
 
 use super::index::{DatumId, Index};
-use super::tree::{Block, Node};
+use super::tree::{Block, Node, nodes};
 use crate::rapid::data::expression::Arguments;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
@@ -307,7 +307,7 @@ impl<'e, 'm> Reader<'e, 'm> {
     }
 
     fn block(&mut self, block: &Block<'m>) {
-        for node in block {
+        for node in nodes(block) {
             match node {
                 Node::Setting(_) => self.acts.moves = true,
                 Node::Move(_, step) => {
@@ -317,12 +317,7 @@ impl<'e, 'm> Reader<'e, 'm> {
                     }
                 }
                 Node::Other(statement) => self.statement(statement.line, &statement.kind),
-                Node::Branches { parts, .. } => {
-                    for part in parts {
-                        self.block(&part.block);
-                    }
-                }
-                Node::Loop { body, .. } => self.block(body),
+                Node::Branches { .. } | Node::Loop { .. } => {}
             }
         }
     }

@@ -44,16 +44,20 @@ pub(in crate::rapid) struct Part<'m> {
     pub(in crate::rapid) block: Block<'m>,
 }
 
-/// The number of statements in a block.
-pub(super) fn size(block: &Block<'_>) -> usize {
-    let of = |node: &Node<'_>| match node {
-        Node::Branches { parts, .. } => {
-            parts.iter().map(|part| size(&part.block)).sum::<usize>() + 1
+/// The nodes of a block in the order of the text, each before those that are in it.
+pub(super) fn nodes<'b, 'm>(block: &'b Block<'m>) -> impl Iterator<Item = &'b Node<'m>> {
+    let mut left: Vec<_> = block.iter().rev().collect();
+    core::iter::from_fn(move || {
+        let node = left.pop()?;
+        match node {
+            Node::Branches { parts, .. } => {
+                left.extend(parts.iter().rev().flat_map(|part| part.block.iter().rev()));
+            }
+            Node::Loop { body, .. } => left.extend(body.iter().rev()),
+            _ => {}
         }
-        Node::Loop { body, .. } => size(body) + 1,
-        _ => 1,
-    };
-    block.iter().map(of).sum()
+        Some(node)
+    })
 }
 
 #[derive(Default)]
@@ -190,7 +194,7 @@ impl<'m> Grower<'m> {
 fn mentions(block: &Block<'_>, word: &str) -> bool {
     let is_it = |it: &str| it.len() == word.len() && it.to_lowercase() == word;
     let has = |text: &str| words_of(text).any(is_it);
-    block.iter().any(|node| match node {
+    nodes(block).any(|node| match node {
         Node::Move(_, step) => {
             let arguments = [Some(&step.target.text), Some(&step.tool.text)];
             let optional =
@@ -202,9 +206,8 @@ fn mentions(block: &Block<'_>, word: &str) -> bool {
         Node::Branches { tested, parts, .. } => {
             tested.is_some_and(|tested| depends_on(core::slice::from_ref(tested), word))
                 || parts.iter().any(|part| decides(word, part.condition))
-                || parts.iter().any(|part| mentions(&part.block, word))
         }
-        Node::Loop { head, body, .. } => has(&head.text) || mentions(body, word),
+        Node::Loop { head, .. } => has(&head.text),
     })
 }
 

@@ -13,7 +13,7 @@ use super::cases::{Case, Known, Way};
 use super::effects::{releases, written_by};
 use super::moves::place_behind;
 use super::state::{Displacement, Frame, Here, Local, State};
-use super::tree::{Block, Node, Part, size};
+use super::tree::{Block, Node, Part, nodes};
 use super::values::Calls as _;
 use super::walker::{END_OF_MAIN, Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
@@ -198,18 +198,9 @@ impl<'m> Walk<'_, 'm> {
 
     /// A block that the call that is followed does not execute.
     fn left_out(&mut self, block: &Block<'m>) {
-        for node in block {
-            match node {
-                Node::Move(index, step) => {
-                    self.left.insert((self.frame.module, *index), *step);
-                }
-                Node::Branches { parts, .. } => {
-                    for part in parts {
-                        self.left_out(&part.block);
-                    }
-                }
-                Node::Loop { body, .. } => self.left_out(body),
-                _ => {}
+        for node in nodes(block) {
+            if let Node::Move(index, step) = node {
+                self.left.insert((self.frame.module, *index), *step);
             }
         }
     }
@@ -418,7 +409,7 @@ impl<'m> Walk<'_, 'm> {
         let bounds = counter.bounds.each_ref().map(|bound| self.number(&head.text, bound));
         let step = counter.step.as_ref().map(|step| self.number(&head.text, step));
         let passes = values_of(bounds, step.flatten());
-        let is_short = passes.len() * size(body) <= MOST_UNCOUNTED;
+        let is_short = passes.len() * nodes(body).count() <= MOST_UNCOUNTED;
         let is_followed = self.is_one || is_counted || is_short;
         if !passes.is_empty() && self.affords(passes.len(), body) && is_followed {
             let depth = self.passes.len();
@@ -489,7 +480,7 @@ impl<'m> Walk<'_, 'm> {
     /// Whether so many passes of a loop can be followed.
     fn affords(&self, passes: usize, body: &Block<'m>) -> bool {
         let left = self.steps_left.min(self.moves_left);
-        !self.is_spent() && passes.saturating_mul(size(body)) <= left
+        !self.is_spent() && passes.saturating_mul(nodes(body).count()) <= left
     }
 
     /// The first pass of a loop whose passes are not known.
@@ -507,13 +498,10 @@ impl<'m> Walk<'_, 'm> {
 
 /// Whether a block has a jump, which may leave it.
 fn jumps(block: &Block<'_>) -> bool {
-    block.iter().any(|node| match node {
-        Node::Branches { parts, .. } => parts.iter().any(|part| jumps(&part.block)),
-        Node::Loop { body, .. } => jumps(body),
-        Node::Other(statement) => match &statement.kind {
-            StatementKind::Instruction(it) => it.effect == Effect::Jumps,
-            _ => false,
-        },
+    nodes(block).any(|node| match node {
+        Node::Other(Statement { kind: StatementKind::Instruction(it), .. }) => {
+            it.effect == Effect::Jumps
+        }
         _ => false,
     })
 }

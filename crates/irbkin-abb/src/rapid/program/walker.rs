@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use super::cases::{Case, Choices, MOST_CASES, Way};
 use super::state::{Frame, Here, Site, State};
-use super::tree::{Block, Node, size};
+use super::tree::{Block, Node, nodes};
 use super::values::Scope;
 use super::whole::Program;
 use crate::rapid::data::expression::Expression;
@@ -242,7 +242,7 @@ impl<'p, 'm> Walk<'p, 'm> {
 
     pub(super) fn forget(&mut self, block: &Block<'m>) {
         self.state.place = Err("it depends on a branch, a loop or a label");
-        self.spend(size(block));
+        self.spend(nodes(block).count());
         if self.steps_left == 0 {
             self.state.forget_globals(None);
             return self.state.forget_locals(|_| true);
@@ -425,11 +425,10 @@ impl<'p, 'm> Walk<'p, 'm> {
 
     /// Whether a block moves the robot, sets how it moves, or leaves the routine.
     pub(super) fn acts(&self, block: &Block<'m>) -> bool {
-        block.iter().any(|node| match node {
+        nodes(block).any(|node| match node {
             Node::Move(_, step) => step.kind != MoveKind::MoveExtJ,
             Node::Setting(_) => true,
-            Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(&part.block)),
-            Node::Loop { body, .. } => self.acts(body),
+            Node::Branches { .. } | Node::Loop { .. } => false,
             Node::Other(statement) => match &statement.kind {
                 StatementKind::Unfinished { .. } | StatementKind::Invalid { .. } => true,
                 StatementKind::Instruction(instruction) => match instruction.effect {
