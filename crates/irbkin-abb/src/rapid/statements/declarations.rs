@@ -87,7 +87,6 @@ pub(crate) fn read_declaration<'a>(
             });
         }
     };
-    let (line, column) = tokens.line_and_column(start);
     let sizes = ExpressionReader::new(tokens).sizes()?;
     let (value_place, mut value) = (tokens.last_end, None);
     if tokens.peek().kind == TokenKind::Assign {
@@ -97,27 +96,13 @@ pub(crate) fn read_declaration<'a>(
             value = Some(ExpressionReader::new(tokens).expression()?);
         }
     }
-    let (names, size_names) = names_of(&sizes, value.as_ref());
     end_statement(tokens, faults, "a semicolon")?;
     if tokens.unfinished_since(from) {
         return Ok(Declaration::Unfinished { name });
     }
-    let declared = Declared {
-        name,
-        data_type,
-        scope,
-        storage,
-        routine,
-        size_names,
-        names,
-        start,
-        end: tokens.last_end,
-        line,
-        column,
-        written: None,
-    };
     let written = WrittenContent { data_type, sizes, value, value_place };
-    let (declared, content) = known_at_once(tokens.text, declared, written, faults.is_tolerant)?;
+    let place = (routine, scope, storage);
+    let (declared, content) = declared(tokens, start, place, name, written, faults.is_tolerant)?;
     Ok(Declaration::Read(declared, content))
 }
 
@@ -157,15 +142,36 @@ impl<'a> Declared<'a> {
     }
 }
 
-/// A declaration with its content, if it has no names.
-pub(super) fn known_at_once<'a>(
-    text: &'a str,
-    mut declared: Declared<'a>,
+/// A declaration that ends here, with its content if it has no names.
+fn declared<'a>(
+    tokens: &Tokens<'a>,
+    start: usize,
+    (routine, scope, storage): (usize, Scope, Storage),
+    name: &'a str,
     written: WrittenContent<'a>,
     is_tolerant: bool,
 ) -> Result<(Declared<'a>, Option<Placed>), RapidFault> {
+    let mut names = Vec::new();
+    written.sizes.iter().for_each(|size| size.collect_names(&mut names));
+    let size_names = names.len();
+    written.value.iter().for_each(|value| value.collect_names(&mut names));
+    let (line, column) = tokens.line_and_column(start);
+    let mut declared = Declared {
+        name,
+        data_type: written.data_type,
+        scope,
+        storage,
+        routine,
+        names,
+        size_names,
+        start,
+        end: tokens.last_end,
+        line,
+        column,
+        written: None,
+    };
     if declared.names.is_empty() {
-        match written.evaluate(&declared.evaluator(text, &NoNames)) {
+        match written.evaluate(&declared.evaluator(tokens.text, &NoNames)) {
             Ok(placed) => return Ok((declared, Some(placed))),
             Err(Stop::Fault(fault)) if !is_tolerant => return Err(fault),
             // The reason is determined when all names are known.
@@ -178,22 +184,6 @@ pub(super) fn known_at_once<'a>(
 
 /// Most components of a datum that are read: records in records could have any number.
 const MOST_PARTS: usize = 64;
-
-/// The names that sizes and a value refer to, and how many of them, the first, belong to the sizes.
-fn names_of<'a>(
-    sizes: &[Expression<'a>],
-    value: Option<&Expression<'a>>,
-) -> (Vec<Name<'a>>, usize) {
-    let mut names = Vec::new();
-    for size in sizes {
-        size.collect_names(&mut names);
-    }
-    let size_names = names.len();
-    if let Some(value) = value {
-        value.collect_names(&mut names);
-    }
-    (names, size_names)
-}
 
 pub(crate) struct DatumPart<'a> {
     /// Its name in lower case behind the one of the datum, such as `p` or `tool.frame`.
@@ -215,37 +205,19 @@ pub(super) fn read_parts<'a>(
     (tokens, faults): (&mut Tokens<'a>, &mut Faults<'_>),
     (types, components): (&Types<'_>, &[(String, String)]),
     start: usize,
-    (routine, scope, storage): (usize, Scope, Storage),
+    place: (usize, Scope, Storage),
     name: &'a str,
 ) -> Result<Vec<DatumPart<'a>>, RapidFault> {
     let sizes = ExpressionReader::new(tokens).sizes()?;
     let value_place = tokens.last_end;
     let value = ExpressionReader::new(tokens).assigned()?;
     end_statement(tokens, faults, "a semicolon")?;
-    let end = tokens.last_end;
-    let (line, column) = tokens.line_and_column(start);
     let mut leaves = Vec::new();
     flatten((types, components), "", value, sizes.len(), 0, &mut leaves);
     let mut parts = Vec::with_capacity(leaves.len());
     for Leaf { path, data_type, value } in leaves {
-        let (names, size_names) = names_of(&sizes, value.as_ref());
-        let declared = Declared {
-            name,
-            data_type,
-            scope,
-            storage,
-            routine,
-            names,
-            size_names,
-            start,
-            end,
-            line,
-            column,
-            written: None,
-        };
-        let sizes = sizes.clone();
-        let written = WrittenContent { data_type, sizes, value, value_place };
-        let (declared, content) = known_at_once(tokens.text, declared, written, true)?;
+        let written = WrittenContent { data_type, sizes: sizes.clone(), value, value_place };
+        let (declared, content) = declared(tokens, start, place, name, written, true)?;
         parts.push(DatumPart { path, declared, content });
     }
     Ok(parts)
