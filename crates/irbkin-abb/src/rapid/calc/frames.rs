@@ -8,12 +8,13 @@ use irbkin::pose::{from_wxyz as pose_from_wxyz, to_wxyz as pose_to_wxyz};
 use irbkin::{Error as RobotError, Pose, Robot};
 
 /// A tool and a work object, one of which the robot carries while the other is fixed in the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::rapid) enum Frames {
-    /// The robot carries the tool.
-    Carried { t_flange_tool: Pose, t_world_wobj: Pose },
-    /// The tool is stationary: the robot carries the work object.
-    Stationary { t_world_tool: Pose, t_flange_wobj: Pose },
+/// The default is the flange in the world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::rapid) struct Frames {
+    pub(in crate::rapid) t_flange_carried: Pose,
+    t_world_fixed: Pose,
+    /// Whether the tool is fixed: the robot carries the work object.
+    is_stationary: bool,
 }
 
 impl Frames {
@@ -51,51 +52,27 @@ impl Frames {
         };
         // The robot is left where it is, the world is displaced.
         let t_carrier_world = units.carried(extax)?.inverse();
-        Ok(if tool_carried {
-            Self::Carried { t_flange_tool: t_tool, t_world_wobj: t_carrier_world * t_wobj }
-        } else {
-            Self::Stationary { t_world_tool: t_carrier_world * t_tool, t_flange_wobj: t_wobj }
-        })
-    }
-
-    /// The carried tool or work object in the flange frame.
-    pub(in crate::rapid) fn carried(&self) -> Pose {
-        match self {
-            Self::Carried { t_flange_tool, .. } => *t_flange_tool,
-            Self::Stationary { t_flange_wobj, .. } => *t_flange_wobj,
-        }
+        let [t_flange_carried, fixed] =
+            if tool_carried { [t_tool, t_wobj] } else { [t_wobj, t_tool] };
+        let t_world_fixed = t_carrier_world * fixed;
+        Ok(Self { t_flange_carried, t_world_fixed, is_stationary: !tool_carried })
     }
 
     /// The tool in the world frame, for the flange in it.
     pub(in crate::rapid) fn tcp(&self, t_world_flange: &Pose) -> Pose {
-        match self {
-            Self::Carried { t_flange_tool, .. } => t_world_flange * t_flange_tool,
-            Self::Stationary { t_world_tool, .. } => *t_world_tool,
-        }
+        if self.is_stationary { self.t_world_fixed } else { t_world_flange * self.t_flange_carried }
     }
 
     /// The flange in the world frame, for the tool in the work object.
     pub(in crate::rapid) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
-        match self {
-            Self::Carried { t_flange_tool, t_world_wobj } => {
-                t_world_wobj * t_wobj_tool * t_flange_tool.inverse()
-            }
-            Self::Stationary { t_world_tool, t_flange_wobj } => {
-                t_world_tool * (t_flange_wobj * t_wobj_tool).inverse()
-            }
-        }
+        let t_fixed_carried = if self.is_stationary { t_wobj_tool.inverse() } else { *t_wobj_tool };
+        self.t_world_fixed * t_fixed_carried * self.t_flange_carried.inverse()
     }
 
     /// The tool in the work object, for the flange in the world frame.
     pub(in crate::rapid) fn tool(&self, t_world_flange: &Pose) -> Pose {
-        match self {
-            Self::Carried { t_flange_tool, t_world_wobj } => {
-                t_world_wobj.inverse() * t_world_flange * t_flange_tool
-            }
-            Self::Stationary { t_world_tool, t_flange_wobj } => {
-                (t_world_flange * t_flange_wobj).inverse() * t_world_tool
-            }
-        }
+        let t_fixed_carried = self.t_world_fixed.inverse() * t_world_flange * self.t_flange_carried;
+        if self.is_stationary { t_fixed_carried.inverse() } else { t_fixed_carried }
     }
 }
 

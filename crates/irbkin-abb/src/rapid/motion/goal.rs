@@ -137,9 +137,7 @@ impl<'m, const N: usize> Goal<'m, N> {
         let (speed, time) = (speed_of(step, &mut found), time_of(step, &mut found));
         let (zone, stops) = zone_of(step, &mut found);
         // The speed of the tool of joint angles counts at the flange if the tool is unknown.
-        let flange =
-            Frames::Carried { t_flange_tool: Pose::identity(), t_world_wobj: Pose::identity() };
-        let frames = Rc::new(frames.unwrap_or(flange));
+        let frames = Rc::new(frames.unwrap_or_default());
         Self {
             step,
             stepped,

@@ -270,7 +270,7 @@ fn moves<const N: usize>(
             length: ways.iter().fold(0.0, |sum, way| sum + way[0]),
             q: made.q,
             as_programmed: made.as_programmed,
-            tool: goal.frames.carried(),
+            tool: goal.frames.t_flange_carried,
             step: goal.step.clone(),
         }
     };
