@@ -127,41 +127,29 @@ impl Evaluator<'_, '_> {
     ) -> Result<(), Stop> {
         let wrong = |found| Err(self.wrong_type(expression, place, found));
         match (&expression.form, &place.of.shape) {
-            (Form::Number(value), _) => self.fill_number(expression, *value, place, atoms),
-            (Form::Bool(value), Shape::Bool) => {
-                atoms.push(Atom::Bool(*value));
-                Ok(())
-            }
-            (Form::Bool(value), _) => wrong(if *value { "TRUE" } else { "FALSE" }),
-            (Form::Text(text), Shape::Text) => {
-                atoms.push(Atom::Text(unquoted(text)));
-                Ok(())
-            }
-            (Form::Text(_), _) => wrong("a string"),
+            (Form::Number(value), _) => self.fill_number(expression, *value, place, atoms)?,
+            (Form::Bool(value), Shape::Bool) => atoms.push(Atom::Bool(*value)),
+            (Form::Bool(value), _) => return wrong(if *value { "TRUE" } else { "FALSE" }),
+            (Form::Text(text), Shape::Text) => atoms.push(Atom::Text(unquoted(text))),
+            (Form::Text(_), _) => return wrong("a string"),
             (Form::Aggregate(parts), Shape::Record(components)) => {
-                self.fill_aggregate(expression, (parts, components), place, atoms)
+                self.fill_aggregate(expression, (parts, components), place, atoms)?;
             }
-            (Form::Aggregate(_), _) => wrong("an aggregate"),
-            (Form::Value(value), _) => {
-                atoms.extend(value.atoms());
-                Ok(())
+            (Form::Aggregate(_), _) => return wrong("an aggregate"),
+            (Form::Value(value), _) => atoms.extend(value.atoms()),
+            (Form::Name(_) | Form::Reference(_), _) => {
+                self.fill_reference(expression, place, atoms)?;
             }
-            (Form::Name(name), _) => {
-                self.fill_reference(expression, (name, &[], &[]), place, atoms)
-            }
-            (Form::Reference(it), _) => {
-                let whole = (&*it.name, it.indices.as_slice(), it.components.as_slice());
-                self.fill_reference(expression, whole, place, atoms)
-            }
-            (Form::Call(call), _) => self.fill_call(expression, call, place, atoms),
+            (Form::Call(call), _) => self.fill_call(expression, call, place, atoms)?,
             (Form::Negated(_) | Form::Chain(..), _) => {
-                self.fill_operators(expression, place, atoms)
+                self.fill_operators(expression, place, atoms)?;
             }
-            (Form::Not(_), _) => Err(Reason::Negation.into()),
-            (Form::Compared(..), _) => Err(Reason::Operator.into()),
-            (Form::Star, _) => Err(Reason::Taught.into()),
-            (Form::Unread(reason, _), _) => Err(Reason::clone(reason).into()),
+            (Form::Not(_), _) => return Err(Reason::Negation.into()),
+            (Form::Compared(..), _) => return Err(Reason::Operator.into()),
+            (Form::Star, _) => return Err(Reason::Taught.into()),
+            (Form::Unread(reason, _), _) => return Err(Reason::clone(reason).into()),
         }
+        Ok(())
     }
 
     /// Append a number. RAPID has no negative zero: it becomes a positive one.
@@ -405,10 +393,10 @@ impl Evaluator<'_, '_> {
     pub(super) fn fill_reference(
         &self,
         expression: &Expression<'_>,
-        (name, indices, components): (&str, &[Expression<'_>], &[Name<'_>]),
         place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
+        let Some((name, indices, components)) = expression.reference() else { return Ok(()) };
         let (name, components) = self.whole_name(name, components);
         let value = self.referred(expression, &name, indices, components)?;
         self.fill_value(expression, &value, components, place, atoms)
@@ -536,7 +524,7 @@ impl Evaluator<'_, '_> {
 
     /// The name in lower case of an expression's type, if that is known without its value.
     pub(crate) fn type_name(&self, expression: &Expression<'_>) -> Option<String> {
-        let (name, components) = match &expression.form {
+        match &expression.form {
             Form::Number(_) => return Some("num".to_string()),
             Form::Text(_) => return Some("string".to_string()),
             Form::Bool(_) => return Some("bool".to_string()),
@@ -545,10 +533,9 @@ impl Evaluator<'_, '_> {
                 let (of, _) = self.part(expression, result, &call.components).ok()?;
                 return Some(of.name.to_string());
             }
-            Form::Name(name) => (name, &[][..]),
-            Form::Reference(reference) => (&reference.name, reference.components.as_slice()),
-            _ => return None,
-        };
+            _ => {}
+        }
+        let (name, _, components) = expression.reference()?;
         let (name, components) = self.whole_name(name, components);
         let value = match self.names.find(self.at, &name) {
             Lookup::Predefined(value) => Cow::Owned(value),

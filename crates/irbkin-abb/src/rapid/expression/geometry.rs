@@ -128,12 +128,7 @@ pub(super) fn euler_zyx(rot: [f64; 4]) -> [f64; 3] {
 }
 
 fn axes(rot: [f64; 4]) -> [[f64; 3]; 3] {
-    let axis = |axis: usize| {
-        let mut unit = [0.0; 3];
-        unit[axis] = 1.0;
-        rotated(rot, unit)
-    };
-    [axis(0), axis(1), axis(2)]
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|unit| rotated(rot, unit))
 }
 
 /// The quaternion of a rotation with these axes, by the largest of its squares.

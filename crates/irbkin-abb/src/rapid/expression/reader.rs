@@ -276,30 +276,20 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     fn operand(&mut self) -> Result<Expression<'a>, RapidFault> {
         let token = self.tokens.peek();
         let form = match token.kind {
-            TokenKind::Number(value) => {
-                self.tokens.take()?;
-                Form::Number(value)
-            }
-            TokenKind::Text => {
-                self.tokens.take()?;
-                Form::Text(self.tokens.text_of(token).into())
-            }
-            TokenKind::Symbol(b'*') => {
-                self.tokens.take()?;
-                Form::Star
-            }
+            TokenKind::Number(value) => Form::Number(value),
+            TokenKind::Text => Form::Text(self.tokens.text_of(token).into()),
+            TokenKind::Symbol(b'*') => Form::Star,
+            TokenKind::Placeholder => Form::Unread(Box::new(Reason::Unfinished), Vec::new()),
             TokenKind::Symbol(b'[') => {
                 self.tokens.take()?;
-                Form::Aggregate(self.list(token, b']')?)
+                let parts = self.list(token, b']')?;
+                return Ok(self.made(token.start, Form::Aggregate(parts)));
             }
             TokenKind::Symbol(b'(') => return self.parenthesis(token),
-            TokenKind::Placeholder => {
-                self.tokens.take()?;
-                Form::Unread(Box::new(Reason::Unfinished), Vec::new())
-            }
-            TokenKind::Name => self.name(token)?,
+            TokenKind::Name => return self.name(token),
             _ => return Err(self.tokens.lacking("a value")),
         };
+        self.tokens.take()?;
         Ok(self.made(token.start, form))
     }
 
@@ -315,11 +305,12 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     }
 
     /// TRUE, FALSE, a function or a reference.
-    fn name(&mut self, token: Token) -> Result<Form<'a>, RapidFault> {
+    fn name(&mut self, token: Token) -> Result<Expression<'a>, RapidFault> {
         let name = self.tokens.text_of(token);
-        if name.eq_ignore_ascii_case("TRUE") || name.eq_ignore_ascii_case("FALSE") {
+        let is_true = name.eq_ignore_ascii_case("TRUE");
+        if is_true || name.eq_ignore_ascii_case("FALSE") {
             self.tokens.take()?;
-            return Ok(Form::Bool(name.eq_ignore_ascii_case("TRUE")));
+            return Ok(self.made(token.start, Form::Bool(is_true)));
         }
         let is_unfinished = self.within != Within::Condition && self.tokens.begins_statement(false);
         if is_reserved(name) || is_unfinished {
@@ -329,9 +320,10 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         let next = self.tokens.peek();
         if next.is(b'(') {
             self.tokens.take()?;
-            return Ok(Form::Call(Box::new(self.call(token, next)?)));
+            let call = self.call(token, next)?;
+            return Ok(self.made(token.start, Form::Call(Box::new(call))));
         }
-        self.behind_name(token).map(|it| it.form)
+        self.behind_name(token)
     }
 
     /// A reference, of which the name is read.
