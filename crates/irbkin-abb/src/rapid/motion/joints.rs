@@ -167,10 +167,7 @@ pub(in crate::rapid) fn nearest_written<const N: usize>(
 ) -> Option<([f64; N], Over)> {
     let wanted = request.configuration;
     let inside = flange.ik_inside_at(pose, request.arm_angle).ok()?;
-    let over = inside.into_iter().filter_map(|q| {
-        let over = over_quarters(flange, &q, wanted)?;
-        Some((q, over))
-    });
+    let over = inside.into_iter().filter_map(|q| Some((q, over_quarters(flange, &q, wanted)?)));
     over.min_by(|a, b| a.1.by.total_cmp(&b.1.by))
 }
 

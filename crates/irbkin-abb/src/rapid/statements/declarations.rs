@@ -31,12 +31,6 @@ pub(crate) enum Declaration<'a> {
     Unfinished { name: &'a str },
 }
 
-/// The storage class that the next token names, if any.
-pub(crate) fn storage_at(tokens: &Tokens<'_>) -> Option<Storage> {
-    let token = tokens.peek();
-    Storage::named(tokens.text_of(token)).filter(|_| token.kind == TokenKind::Name)
-}
-
 /// The name in a declaration, or its placeholder: the next token.
 pub(crate) fn read_name<'a>(
     tokens: &mut Tokens<'a>,

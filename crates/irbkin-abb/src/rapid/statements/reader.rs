@@ -14,7 +14,6 @@ use super::moves::WrittenMove;
 use super::types::Types;
 use crate::rapid::data::expression::Name;
 use crate::rapid::data::module::{Module, Routine};
-use crate::rapid::data::own_types::OwnTypes;
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::data::statement::{Statement, StatementKind};
 use crate::rapid::data::unread::Unresolved;
@@ -74,20 +73,7 @@ pub(crate) struct StatementReader<'a> {
     pub(super) settings: MotionSettings,
 }
 
-impl<'a> StatementReader<'a> {
-    /// At the beginning of a text.
-    pub(super) fn new(written: Written<'a>, context: &'a [&'a Module]) -> Self {
-        Self {
-            tokens: Tokens::of(written.text),
-            types: Types { own: OwnTypes::new(), context },
-            written,
-            stage: Stage::Beginning,
-            routine: 0,
-            displaced_by: None,
-            settings: MotionSettings::default(),
-        }
-    }
-
+impl StatementReader<'_> {
     /// The position, for looking up names.
     pub(super) fn at(&self) -> At {
         At { routine: self.routine, inside_loop: self.written.blocks.innermost_loop() }

@@ -82,18 +82,6 @@ impl StatementReader<'_> {
     }
 }
 
-/// Skip to a word that ends something without a name, or to where something else begins; false if
-/// it is not there.
-pub(super) fn skip_to_end(tokens: &mut Tokens<'_>, end: &str) -> Result<bool, RapidFault> {
-    while !tokens.take_word(end)? {
-        if begins_other(tokens) {
-            return Ok(false);
-        }
-        tokens.take()?;
-    }
-    Ok(true)
-}
-
 /// Whether the text ends or something begins that is in no routine and in no record.
 pub(super) fn begins_other(tokens: &Tokens<'_>) -> bool {
     let others = ["MODULE", "ENDMODULE", "PROC", "FUNC", "TRAP", "RECORD"];

@@ -7,16 +7,19 @@ use alloc::vec::Vec;
 
 use super::blocks::is_flow;
 use super::declarations::DatumPart;
-use super::declarations::{Declaration, read_declaration, read_name, storage_at};
+use super::declarations::{Declaration, read_declaration, read_name};
 use super::faults::{Faults, is_encoded};
 use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
-use super::recovery::skip_to_end;
-use crate::rapid::data::module::{Module, Parameter, Routine, RoutineKind, Scope};
+use super::recovery::begins_other;
+use super::types::Types;
+use crate::rapid::data::module::{Module, Parameter, Routine, RoutineKind, Scope, Storage};
+use crate::rapid::data::own_types::OwnTypes;
+use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::data::statement::StatementKind;
 use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::DataType;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
-use crate::rapid::text::tokens::{Token, TokenKind};
+use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
 use crate::rapid::text::words::is_reserved;
 
 impl<'a> StatementReader<'a> {
@@ -32,7 +35,15 @@ impl<'a> StatementReader<'a> {
             written.faults.add(fault)?;
             return Ok(written);
         }
-        let mut reader = Self::new(written, context);
+        let mut reader = Self {
+            tokens: Tokens::of(text),
+            types: Types { own: OwnTypes::new(), context },
+            written,
+            stage: Stage::Beginning,
+            routine: 0,
+            displaced_by: None,
+            settings: MotionSettings::default(),
+        };
         for round in 0.. {
             let first = reader.tokens.peek();
             if first.kind == TokenKind::End {
@@ -162,13 +173,14 @@ impl<'a> StatementReader<'a> {
         if scope != Scope::Global {
             self.tokens.take()?;
         }
-        if let Some(storage) = storage_at(&self.tokens) {
+        let word = self.tokens.text_of(self.tokens.peek());
+        if let Some(storage) = Storage::named(word) {
             let place = (self.routine, scope, storage);
             let (tokens, faults) = (&mut self.tokens, &mut self.written.faults);
             let declaration = read_declaration(tokens, faults, first.start, place, &self.types)?;
             return self.add_declaration(first, declaration);
         }
-        match RoutineKind::named(self.tokens.text_of(self.tokens.peek())) {
+        match RoutineKind::named(word) {
             Some(kind) if scope != Scope::Task => self.begin_routine(kind, first),
             _ if self.tokens.at_word("ALIAS") => self.alias(first),
             // A procedure may have the name Task.
@@ -289,8 +301,11 @@ impl StatementReader<'_> {
         name: &str,
         first: Token,
     ) -> Result<(), RapidFault> {
-        if !skip_to_end(&mut self.tokens, kind.end())? {
-            return Err(self.not_ended(format!("{} {name}", kind.name()), kind.end()));
+        while !self.tokens.take_word(kind.end())? {
+            if begins_other(&self.tokens) {
+                return Err(self.not_ended(format!("{} {name}", kind.name()), kind.end()));
+            }
+            self.tokens.take()?;
         }
         self.add_unfinished(first);
         Ok(())
