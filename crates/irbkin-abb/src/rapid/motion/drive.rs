@@ -108,7 +108,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
     ) -> Result<(Samples<N>, Vec<Made<N>>), Error> {
         let mut drive = Self::new([robot, flange], goals, options, findings, interrupt)?;
         if let Some(start) = options.start {
-            drive.samples.push(start, [0.0; 2]);
+            drive.samples.path.push(start, [0.0; 2]);
             drive.samples.first = 1;
             drive.here = Some(Here { q: start, flange: flange.fk(&start) });
         }
@@ -116,8 +116,8 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
             interrupt.check(index)?;
             let made = drive.make(index)?;
             drive.made.push(made);
-            drive.samples.ends.push(drive.samples.q.len());
-            let found = drive.samples.forgotten + drive.samples.q.len();
+            drive.samples.ends.push(drive.samples.path.q.len());
+            let found = drive.samples.forgotten + drive.samples.path.q.len();
             if found > MOST_SAMPLES {
                 #[expect(clippy::cast_precision_loss, reason = "some 1e7")]
                 let [found, most] = [found, MOST_SAMPLES].map(|count| count as f64);
@@ -226,7 +226,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         let Some(q) = self.solved(index, None, conf) else {
             return Made::default();
         };
-        self.samples.push(q, [0.0; 2]);
+        self.samples.path.push(q, [0.0; 2]);
         self.here = Some(Here { q, flange: self.flange.fk(&q) });
         Made { q: Some(q), as_programmed: true, is_rounded: false }
     }
@@ -246,8 +246,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
                 round_joints(self.flange, &mut self.samples, zone.position, frames, &mut path);
             self.made[before].is_rounded = is_rounded;
         }
-        self.samples.q.append(&mut path.q);
-        self.samples.ways.append(&mut path.ways);
+        self.samples.path.append(path);
     }
 
     /// The line or the arc of a move between two poses of the tool.

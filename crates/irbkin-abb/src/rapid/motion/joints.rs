@@ -24,9 +24,7 @@ pub(in crate::rapid) type Way = [f64; 2];
 /// Samples in order, grouped by moves.
 #[derive(Default)]
 pub(in crate::rapid) struct Samples<const N: usize> {
-    pub(in crate::rapid) q: Vec<[f64; N]>,
-    /// The way from the sample before.
-    pub(in crate::rapid) ways: Vec<Way>,
+    pub(in crate::rapid) path: Path<N>,
     /// How many samples there are after each move.
     pub(in crate::rapid) ends: Vec<usize>,
     /// How many there are before the first move: 1 if a start is given.
@@ -35,17 +33,12 @@ pub(in crate::rapid) struct Samples<const N: usize> {
 }
 
 impl<const N: usize> Samples<N> {
-    pub(in crate::rapid) fn push(&mut self, q: [f64; N], way: Way) {
-        self.q.push(q);
-        self.ways.push(way);
-    }
-
     /// Forget the samples of the moves before one, but for the last.
     pub(in crate::rapid) fn forget_before(&mut self, index: usize) {
         let Some(before) = index.checked_sub(1) else { return };
         let count = self.ends[before].saturating_sub(1);
-        self.q.drain(..count);
-        self.ways.drain(..count);
+        self.path.q.drain(..count);
+        self.path.ways.drain(..count);
         self.ends[before..].iter_mut().for_each(|end| *end -= count);
         self.forgotten += count;
     }
@@ -59,7 +52,7 @@ impl<const N: usize> Samples<N> {
     /// The joints along a move, from where it begins.
     pub(in crate::rapid) fn along(&self, index: usize) -> &[[f64; N]] {
         let intervals = self.intervals(index);
-        &self.q[intervals.start.saturating_sub(1)..intervals.end]
+        &self.path.q[intervals.start.saturating_sub(1)..intervals.end]
     }
 
     /// The intervals of a move, by the samples that they end at.
@@ -69,7 +62,8 @@ impl<const N: usize> Samples<N> {
     }
 }
 
-/// The joints of a move after those that it begins with, and the way of the tool to each.
+/// Joints one after the other, as those of a move after those that it begins with, and the way of
+/// the tool to each.
 #[derive(Default)]
 pub(in crate::rapid) struct Path<const N: usize> {
     pub(in crate::rapid) q: Vec<[f64; N]>,
@@ -80,6 +74,28 @@ impl<const N: usize> Path<N> {
     pub(in crate::rapid) fn push(&mut self, q: [f64; N], way: Way) {
         self.q.push(q);
         self.ways.push(way);
+    }
+
+    pub(super) fn append(&mut self, mut behind: Self) {
+        self.q.append(&mut behind.q);
+        self.ways.append(&mut behind.ways);
+    }
+
+    /// Joints behind others, with a tool in a work object.
+    fn behind(
+        from: &[f64; N],
+        joints: impl IntoIterator<Item = [f64; N]>,
+        flange: &Robot<N>,
+        frames: &Frames,
+    ) -> Self {
+        let mut path = Self::default();
+        let mut last = frames.tool(&flange.fk(from));
+        for q in joints {
+            let pose = frames.tool(&flange.fk(&q));
+            path.push(q, way(&last, &pose));
+            last = pose;
+        }
+        path
     }
 
     /// The length of the tool's way [m].
@@ -181,15 +197,8 @@ pub(super) fn joint_line<const N: usize>(
 ) -> Result<Path<N>, Error> {
     let longest = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
     let count = spacing.steps_of_one([0.0, longest])?;
-    let mut path = Path::default();
-    let mut last = frames.tool(&flange.fk(from));
-    for step in 1..=count {
-        let q = if step == count { *to } else { mixed(from, to, part(step, count)) };
-        let pose = frames.tool(&flange.fk(&q));
-        path.push(q, way(&last, &pose));
-        last = pose;
-    }
-    Ok(path)
+    let at = |step| if step == count { *to } else { mixed(from, to, part(step, count)) };
+    Ok(Path::behind(from, (1..=count).map(at), flange, frames))
 }
 
 /// Joints between two others.
@@ -241,12 +250,12 @@ pub(super) fn round_joints<const N: usize>(
     let own = samples.own(last);
     // Its first sample needs one before it, to have a way.
     let (begin, end) = (own.start.max(1), own.end);
-    let length: f64 = samples.ways[begin.min(end)..end].iter().map(|way| way[0]).sum();
+    let length: f64 = samples.path.ways[begin.min(end)..end].iter().map(|way| way[0]).sum();
     let radius = zone.min(0.5 * length).min(0.5 * path.length());
     if radius.is_nan() || radius <= 0.0 {
         return false;
     }
-    let (q, ways) = (&samples.q, &samples.ways);
+    let (q, ways) = (&samples.path.q, &samples.path.ways);
     let behind = Side {
         q: &|index| q[end - 1 - index],
         way: &|index| ways[end - index],
@@ -264,34 +273,19 @@ pub(super) fn round_joints<const N: usize>(
     let entry = behind.at(radius);
     let entry_way = ways[end - kept].map(|size| size * (1.0 - entry_part));
     let (left, exit_part) = ahead.place(radius);
-    let mut halves = [[[0.0; N]; HALF]; 2];
-    for (half, rows) in halves.iter_mut().enumerate() {
-        for (step, row) in rows.iter_mut().enumerate() {
-            let half = if half == 0 { 0.0 } else { 0.5 };
-            *row = blended(half + 0.5 * part(step + 1, HALF));
-        }
-    }
+    let [first, second] = [0.0, 0.5].map(|begin| {
+        core::array::from_fn::<_, HALF, _>(|step| blended(begin + 0.5 * part(step + 1, HALF)))
+    });
     // The samples of the last move up to the corner, the entry, and half of the corner.
-    samples.q.truncate(end - kept);
-    samples.ways.truncate(end - kept);
+    samples.path.q.truncate(end - kept);
+    samples.path.ways.truncate(end - kept);
     // Unless the zone begins at a sample.
     if entry_part < 1.0 - STEP_ROUNDING {
-        samples.push(entry, entry_way);
+        samples.path.push(entry, entry_way);
     }
-    let mut pose = before.tool(&flange.fk(&entry));
-    for row in &halves[0] {
-        let next = before.tool(&flange.fk(row));
-        samples.push(*row, way(&pose, &next));
-        pose = next;
-    }
-    samples.ends[last] = samples.q.len();
-    let mut rounded = Path::default();
-    let mut pose = after.tool(&flange.fk(&halves[0][HALF - 1]));
-    for row in &halves[1] {
-        let next = after.tool(&flange.fk(row));
-        rounded.push(*row, way(&pose, &next));
-        pose = next;
-    }
+    samples.path.append(Path::behind(&entry, first, flange, before));
+    samples.ends[last] = samples.path.q.len();
+    let mut rounded = Path::behind(&first[HALF - 1], second, flange, after);
     for index in left - 1..path.q.len() {
         let share = if index == left - 1 { 1.0 - exit_part } else { 1.0 };
         if share > STEP_ROUNDING {

@@ -114,7 +114,7 @@ pub fn motion<const N: usize>(
         Followed::new([robot, &flange], &steps, options, None, none, &mut |_, _| Ok(()))?;
     let Followed { goals, samples, made, mut findings, unfollowed } = followed;
     findings.extend(unfollowed);
-    if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
+    if samples.path.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
         let finding = findings.first().map(Finding::to_string).unwrap_or_default();
         return Err(RapidFault::nowhere(RapidFaultKind::Routine(RoutineFault::NoMotion {
             finding,
@@ -135,7 +135,7 @@ pub fn motion<const N: usize>(
         move_index.resize(*end, index);
     }
     findings.sort_by_key(|finding| finding.move_index);
-    Ok(RoutineMotion { routine, trajectory, t, q: samples.q, move_index, moves, findings })
+    Ok(RoutineMotion { routine, trajectory, t, q: samples.path.q, move_index, moves, findings })
 }
 
 /// Steps that follow one another, gone through.
@@ -259,7 +259,7 @@ fn moves<const N: usize>(
         let own = samples.own(index);
         // It begins at the last sample of the move before it.
         let begin = own.start.saturating_sub(1);
-        let ways = &samples.ways[samples.intervals(index)];
+        let ways = &samples.path.ways[samples.intervals(index)];
         MotionMove {
             kind: goal.step.kind,
             module: goal.stepped.instruction.0,
@@ -347,7 +347,7 @@ impl<const N: usize> Drive<'_, '_, N> {
     /// Find a joint that is too fast at the programmed speed of a move.
     pub(in crate::rapid) fn check_speed(&mut self, index: usize, max_velocity: &[f64; N]) {
         let Self { goals, samples, made, findings, .. } = self;
-        let mut least = vec![0.0; samples.q.len()];
+        let mut least = vec![0.0; samples.path.q.len()];
         Pace { samples, goals, made, max_velocity, findings }.add_times(index, &mut least);
     }
 }
@@ -358,19 +358,19 @@ impl<const N: usize> Pace<'_, '_, N> {
         mut self,
         max_acceleration: Option<&[f64; N]>,
     ) -> Result<(Trajectory, Vec<f64>), Error> {
-        let mut least = vec![0.0; self.samples.q.len().saturating_sub(1)];
+        let mut least = vec![0.0; self.samples.path.q.len().saturating_sub(1)];
         for index in 0..self.goals.len() {
             self.add_times(index, &mut least);
         }
         let timed = if let Some(max_acceleration) = max_acceleration {
             self.between_rests(&least, max_acceleration)?
         } else {
-            let mut times = Vec::with_capacity(self.samples.q.len());
+            let mut times = Vec::with_capacity(self.samples.path.q.len());
             times.push(0.0);
             for (index, least) in least.iter().enumerate() {
                 times.push(times[index] + least);
             }
-            (evenly(&times, &self.samples.q), times)
+            (evenly(&times, &self.samples.path.q), times)
         };
         let value = timed.0.duration();
         if value.is_nan() || value > MOST_DURATION {
@@ -384,7 +384,7 @@ impl<const N: usize> Pace<'_, '_, N> {
     /// The joint (from 1) that takes longest at its limit from the sample before one, and how long
     /// [s].
     fn slowest(&self, sample: usize) -> (usize, f64) {
-        let (from, to) = (&self.samples.q[sample - 1], &self.samples.q[sample]);
+        let (from, to) = (&self.samples.path.q[sample - 1], &self.samples.path.q[sample]);
         let time = |joint: usize| (to[joint] - from[joint]).abs() / self.max_velocity[joint];
         let (mut slowest, mut longest) = (0, time(0));
         for joint in 1..N {
@@ -400,7 +400,7 @@ impl<const N: usize> Pace<'_, '_, N> {
     fn add_times(&mut self, index: usize, least: &mut [f64]) {
         let (intervals, goal) = (self.samples.intervals(index), &self.goals[index]);
         let mut sums = [0.0; 2];
-        for way in &self.samples.ways[intervals.clone()] {
+        for way in &self.samples.path.ways[intervals.clone()] {
             sums = [sums[0] + way[0], sums[1] + way[1]];
         }
         let as_programmed = self.made[index].as_programmed;
@@ -459,12 +459,12 @@ impl<const N: usize> Pace<'_, '_, N> {
         let is_timed = self.goals[index].time.is_some();
         let starts = !is_timed && index > 0 && self.goals[index - 1].stops;
         let stops = !is_timed && self.goals[index].stops;
-        let total: f64 = self.samples.ways[intervals.clone()].iter().map(|way| way[0]).sum();
+        let total: f64 = self.samples.path.ways[intervals.clone()].iter().map(|way| way[0]).sum();
         let mut gone = 0.0;
         // The time that the tool takes for a way, from rest or to rest.
         let time = |way: f64| (2.0 * way.max(0.0) / MOST_ACCELERATION).sqrt();
         for sample in intervals {
-            let [length, angle] = self.samples.ways[sample];
+            let [length, angle] = self.samples.path.ways[sample];
             let programmed = (length / speed[0]).max(angle / speed[1]);
             let (joint, needed) = self.slowest(sample);
             least[sample - 1] = programmed.max(needed);
@@ -524,7 +524,7 @@ impl<const N: usize> Pace<'_, '_, N> {
         least: &[f64],
         max_acceleration: &[f64; N],
     ) -> Result<(Trajectory, Vec<f64>), Error> {
-        let q = &self.samples.q;
+        let q = &self.samples.path.q;
         let mut times = vec![0.0];
         let mut motion = evenly(&[0.0], &q[..1]);
         let mut begin = 0;
