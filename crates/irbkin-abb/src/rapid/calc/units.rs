@@ -95,24 +95,14 @@ impl Units {
         })
     }
 
-    /// Whether units move between two targets, and whether what they move turns: a straight line is
-    /// none there, seen from the robot.
-    pub(in crate::rapid) fn between(&self, from: &[f64; 6], to: &[f64; 6]) -> Between {
+    /// If units move between two targets, whether what they move turns: a straight line is none
+    /// there, seen from the robot.
+    pub(in crate::rapid) fn turn_between(&self, from: &[f64; 6], to: &[f64; 6]) -> Option<bool> {
         let axes = self.0.iter().filter(|unit| unit.is_determined).flat_map(|unit| &unit.axes);
         let moved = axes.filter(|axis| {
             let [from, to] = [from, to].map(|it| it.get(axis.external).copied().unwrap_or(0.0));
             (from - to).abs() > 0.0
         });
-        moved.fold(Between::default(), |found, axis| Between {
-            moves: true,
-            turns: found.turns || axis.is_rotation,
-        })
+        moved.map(|axis| axis.is_rotation).reduce(|turns, next| turns || next)
     }
-}
-
-/// The motion of units between two targets.
-#[derive(Clone, Copy, Default)]
-pub(in crate::rapid) struct Between {
-    pub(in crate::rapid) moves: bool,
-    pub(in crate::rapid) turns: bool,
 }

@@ -226,9 +226,8 @@ pub(in crate::rapid) fn goals<'m, const N: usize>(
                 }
                 if let (Some(units), Some(before)) = (units, goals.last()) {
                     let [from, to] = [before.step, goal.step].map(external_axes::<N>);
-                    let between = units.between(&from, &to);
-                    goal.from_unknown |= goal.is_cartesian() && between.turns;
-                    if between.moves {
+                    if let Some(turns) = units.turn_between(&from, &to) {
+                        goal.from_unknown |= goal.is_cartesian() && turns;
                         // How fast the tool goes there, seen from the robot, is not known.
                         goal.speed = [f64::INFINITY; 2];
                         goal.is_carried = true;
