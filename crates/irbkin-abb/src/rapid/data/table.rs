@@ -525,12 +525,57 @@ static TABLE: &[Entry] = &[
 /// Names with the same arguments, and whether they are functions.
 type Group = (&'static str, &'static str, bool);
 
-/// Without arguments; then others, most of add-ins, whose arguments are not known.
-static GROUPS: [Group; 4] = [
+/// Without arguments; then others, most of add-ins and options, whose arguments are not known.
+static GROUPS: [Group; 19] = [
     (BARE, "", false),
     (BARE_FUNCTIONS, "", true),
     (OTHERS, "...", false),
     (OTHER_FUNCTIONS, "...", true),
+    // RobotWare; of `FitSphere` there is only a program that calls it.
+    (
+        "CornerPathWarning FitCircle FitSphere IoCtrlAxis_RefSync IoCtrlAxis_RefSyncOff \
+            IoCtrlAxis_RefSyncOn SoftElbow",
+        "...",
+        false,
+    ),
+    // `LINKEDM.sys`, which is in backups of IRC5, and `HandDriver.sys` of a YuMi.
+    ("Linked_m Linked_m_exe EventLog", "...", false),
+    // Conveyor Tracking.
+    ("CnvPredictReach GetMaxUsageTime ResetMaxUsageTime UseReachableTargets", "...", false),
+    // PickMaster: 3HAC064218, and ABB's `PMppa340.prg` in public repositories.
+    ("AckItmTgt FlushItmSrc GetItmTgt NewItmSrc NextItmTgtType QStartItmSrc", "...", false),
+    ("QStopItmSrc ResetFlowCount", "...", false),
+    // Palletizing: ABB's `PmMain.mod` and `PmProjServer.mod`, and a list of its PowerPac.
+    (
+        "PmAckTarget PmCalcArmConf PmCalcIntermid PmErrorLog PmGetFlow PmGetFlowInfo \
+            PmGetOperation PmGetProjectInfo PmGetWaInfo PmSetRecoverAction PmStartFlow \
+            PmStartProj PmStopFlow PmStopProj PmWaitProjStart",
+        "...",
+        false,
+    ),
+    ("PmGetTarget PmGetTgtAction PmSetDefaultHeight", "...", true),
+    // Paint.
+    ("ConsoleWrite IpsSetParam PntProdUserLog UseBrushTab", "...", false),
+    (
+        "IndexLookup IpsCommand IpsGetParam PaintCommand PntQueueExtraGet PntQueueExtraSet \
+            PntQueuePeek",
+        "...",
+        true,
+    ),
+    // Tool changers.
+    ("TcCloseCover TcDropOffTool TcLockTool TcOpenCover TcPickupTool TcUnlockTool", "...", false),
+    // Dispensing.
+    ("SyncWWObj", "...", false),
+    ("GetSignalDnum", "...", true),
+    // Continuous Application Platform.
+    ("CapAPTrSetupAI CapAPTrSetupAO CapAPTrSetupPERS CAPSetStopMode", "...", false),
+    // Homepos-Running.
+    (
+        "HR_Exit HR_ExitCycle HR_SavePos HR_SetMoveToStartPos HR_SetTypeDIndex HR_SetTypeIndex",
+        "...",
+        false,
+    ),
+    ("HR_GetTypeDIndex HR_GetTypeIndex HR_RobotInHome", "...", true),
 ];
 const BARE: &str = "ActEventBuffer CheckProgRef ClearPath CorrClear DeactEventBuffer DitherDeact \
     HollowWristReset IDisable IEnable PathLengthReset PathLengthStart PathLengthStop \
@@ -625,68 +670,18 @@ impl Entry {
                     .split(' ')
                     .any(|it| it.len() == name.len() && it.eq_ignore_ascii_case(name))
         };
-        GROUPS.iter().chain(&OPTIONS).find(is_of).map(|(_, arguments, _)| *arguments)
+        GROUPS.iter().find(is_of).map(|(_, arguments, _)| *arguments)
     }
 
     /// The names, the arguments, and whether it is a function, of all.
     #[doc(hidden)]
     pub fn all() -> impl Iterator<Item = (&'static str, &'static str, bool)> {
         let known = TABLE.iter().map(|it| (it.name, it.arguments, it.is_function));
-        let groups = GROUPS.iter().chain(&OPTIONS);
-        known.chain(groups.flat_map(|(names, arguments, is_function)| {
+        known.chain(GROUPS.iter().flat_map(|(names, arguments, is_function)| {
             names.split(' ').map(move |name| (name, *arguments, *is_function))
         }))
     }
 }
-
-/// Names with arguments that are not known, and whether they are functions.
-pub(super) static OPTIONS: [(&str, &str, bool); 15] = [
-    // RobotWare; of `FitSphere` there is only a program that calls it.
-    (
-        "CornerPathWarning FitCircle FitSphere IoCtrlAxis_RefSync IoCtrlAxis_RefSyncOff \
-            IoCtrlAxis_RefSyncOn SoftElbow",
-        "...",
-        false,
-    ),
-    // `LINKEDM.sys`, which is in backups of IRC5, and `HandDriver.sys` of a YuMi.
-    ("Linked_m Linked_m_exe EventLog", "...", false),
-    // Conveyor Tracking.
-    ("CnvPredictReach GetMaxUsageTime ResetMaxUsageTime UseReachableTargets", "...", false),
-    // PickMaster: 3HAC064218, and ABB's `PMppa340.prg` in public repositories.
-    ("AckItmTgt FlushItmSrc GetItmTgt NewItmSrc NextItmTgtType QStartItmSrc", "...", false),
-    ("QStopItmSrc ResetFlowCount", "...", false),
-    // Palletizing: ABB's `PmMain.mod` and `PmProjServer.mod`, and a list of its PowerPac.
-    (
-        "PmAckTarget PmCalcArmConf PmCalcIntermid PmErrorLog PmGetFlow PmGetFlowInfo \
-            PmGetOperation PmGetProjectInfo PmGetWaInfo PmSetRecoverAction PmStartFlow \
-            PmStartProj PmStopFlow PmStopProj PmWaitProjStart",
-        "...",
-        false,
-    ),
-    ("PmGetTarget PmGetTgtAction PmSetDefaultHeight", "...", true),
-    // Paint.
-    ("ConsoleWrite IpsSetParam PntProdUserLog UseBrushTab", "...", false),
-    (
-        "IndexLookup IpsCommand IpsGetParam PaintCommand PntQueueExtraGet PntQueueExtraSet \
-            PntQueuePeek",
-        "...",
-        true,
-    ),
-    // Tool changers.
-    ("TcCloseCover TcDropOffTool TcLockTool TcOpenCover TcPickupTool TcUnlockTool", "...", false),
-    // Dispensing.
-    ("SyncWWObj", "...", false),
-    ("GetSignalDnum", "...", true),
-    // Continuous Application Platform.
-    ("CapAPTrSetupAI CapAPTrSetupAO CapAPTrSetupPERS CAPSetStopMode", "...", false),
-    // Homepos-Running.
-    (
-        "HR_Exit HR_ExitCycle HR_SavePos HR_SetMoveToStartPos HR_SetTypeDIndex HR_SetTypeIndex",
-        "...",
-        false,
-    ),
-    ("HR_GetTypeDIndex HR_GetTypeIndex HR_RobotInHome", "...", true),
-];
 
 #[cfg(test)]
 mod tests {
