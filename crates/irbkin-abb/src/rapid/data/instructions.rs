@@ -13,7 +13,6 @@ pub(crate) enum Effect {
     Offsets(Shift),
     /// It sets how the moves after it are made.
     Sets,
-    /// It returns to the caller.
     Returns,
     /// It leaves the routine, to wherever.
     Leaves,

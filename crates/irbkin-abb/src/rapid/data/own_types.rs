@@ -15,7 +15,6 @@ pub(crate) struct OwnType {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Definition {
-    /// As another name of a type.
     Alias(String),
     /// As a record: the type and the name of each component.
     Record(Vec<(String, String)>),

@@ -202,7 +202,6 @@ pub(crate) enum Condition {
     Never,
     /// Whether an optional parameter, in lower case, must be there: `Present(x)`, `NOT Present(x)`.
     Present(String, bool),
-    /// Of two numbers.
     Compared(Box<[Expression<'static>; 2]>, Relation),
     /// Whether what is tested is one of some numbers.
     Case(Vec<Expression<'static>>),

@@ -24,9 +24,7 @@ use crate::rapid::text::tokens::unquoted;
 
 /// Why an expression has no value.
 pub(crate) enum Stop {
-    /// The text is invalid.
     Fault(RapidFault),
-    /// The value is unknown.
     Unknown(Reason),
 }
 

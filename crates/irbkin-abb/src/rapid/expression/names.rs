@@ -78,7 +78,6 @@ pub(crate) enum Lookup<'r> {
     Predefined(Value),
     /// Nothing declares it.
     NotHere,
-    /// It has no value, for this reason.
     Unknown(Unresolved),
 }
 

@@ -42,10 +42,13 @@ const COPIED: usize = 8;
 pub(in crate::rapid) const END_OF_MAIN: &str = "the end of main";
 
 pub(in crate::rapid) enum Step<'m> {
-    /// A move.
     Move(Box<Stepped<'m>>),
     /// Something that may move the robot and is not followed, with the reason.
-    NotFollowed { module: usize, statement: &'m Statement, words: String },
+    NotFollowed {
+        module: usize,
+        statement: &'m Statement,
+        words: String,
+    },
 }
 
 /// A move with the values that it has here.

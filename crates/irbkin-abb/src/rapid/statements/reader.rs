@@ -51,13 +51,10 @@ pub(crate) struct Assignment<'a> {
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
-    /// Before anything.
     Beginning,
     /// In a text without MODULE.
     Bare,
-    /// After MODULE.
     Module,
-    /// After ENDMODULE.
     Ended,
 }
 

@@ -41,7 +41,6 @@ pub(crate) enum TokenKind {
     Symbol(u8),
     /// No token: taking it is an error.
     Invalid,
-    /// After the last token.
     End,
 }
 
