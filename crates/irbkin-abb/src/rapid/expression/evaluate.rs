@@ -384,9 +384,7 @@ impl Evaluator<'_, '_> {
             _ => return Err(Reason::Arithmetic { type_name: POS.name }.into()),
         })
     }
-}
 
-impl Evaluator<'_, '_> {
     /// Append the value of a name with indices and components.
     pub(super) fn fill_reference(
         &self,

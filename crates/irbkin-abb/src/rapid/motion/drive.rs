@@ -22,6 +22,9 @@ use irbkin_motion::Error as MotionError;
 use irbkin_motion::internal::{Corner, Leg, MOST_SAMPLES, Rounded, part};
 use irbkin_motion::paths::{ArcOrientation, Spacing};
 
+/// The bit of cfx that is the side of the wrist.
+const WRIST_SIDE: i32 = 1;
+
 /// Least number of steps of a line or an arc with a rounded corner.
 const LEAST_STEPS: usize = 4;
 
@@ -389,25 +392,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         self.check_singularities(index, here, &path);
         Ok(Ok(path))
     }
-}
 
-/// The reason if a path does not begin with the joints that the robot has.
-pub(super) fn apart<const N: usize>(
-    from: &[f64; N],
-    to: &[f64; N],
-    mode: SingularityMode,
-) -> Option<BreakReason> {
-    let (joint, by) = largest_step(from, to);
-    if by.abs() <= JOINED_MOVES {
-        return None;
-    }
-    Some(match mode {
-        SingularityMode::LockAxis4 => BreakReason::Locked,
-        _ => BreakReason::Jump { joint, by, kinds: SingularityKind::empty() },
-    })
-}
-
-impl<const N: usize> Drive<'_, '_, N> {
     /// The joints at the target of a line or an arc, and whether they have its configuration.
     pub(super) fn arrived(&mut self, index: usize, end: &[f64; N], is_rounded: bool) -> [f64; N] {
         let goal = &self.goals[index];
@@ -454,12 +439,7 @@ impl<const N: usize> Drive<'_, '_, N> {
         }
         q
     }
-}
 
-/// The bit of cfx that is the side of the wrist.
-const WRIST_SIDE: i32 = 1;
-
-impl<const N: usize> Drive<'_, '_, N> {
     /// Report the singularities that a line or an arc passes: of each kind the nearest place.
     pub(super) fn check_singularities(&mut self, index: usize, here: &Here<N>, path: &Path<N>) {
         let is_off = self.goals[index].step.settings.sing_area == SingArea::Off;
@@ -508,4 +488,20 @@ impl<const N: usize> Drive<'_, '_, N> {
         let to = self.flange.ik_configured(flanges.last()?, wanted.near(*from)).ok()?;
         self.flange.with_even_wrist(flanges, [from, &to.q], self.interrupt)
     }
+}
+
+/// The reason if a path does not begin with the joints that the robot has.
+pub(super) fn apart<const N: usize>(
+    from: &[f64; N],
+    to: &[f64; N],
+    mode: SingularityMode,
+) -> Option<BreakReason> {
+    let (joint, by) = largest_step(from, to);
+    if by.abs() <= JOINED_MOVES {
+        return None;
+    }
+    Some(match mode {
+        SingularityMode::LockAxis4 => BreakReason::Locked,
+        _ => BreakReason::Jump { joint, by, kinds: SingularityKind::empty() },
+    })
 }

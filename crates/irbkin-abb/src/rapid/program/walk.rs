@@ -29,6 +29,11 @@ use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use irbkin::{Interrupt, Interrupted};
 
+const MOST_PASSES: usize = 1000;
+
+/// Most statements in the passes of a loop that no move and no call names the counter of.
+const MOST_UNCOUNTED: usize = 200;
+
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
 /// is never executed.
 ///
@@ -389,14 +394,7 @@ impl<'m> Walk<'_, 'm> {
             Effect::Nothing => self.call(statement, instruction),
         }
     }
-}
 
-const MOST_PASSES: usize = 1000;
-
-/// Most statements in the passes of a loop that no move and no call names the counter of.
-const MOST_UNCOUNTED: usize = 200;
-
-impl<'m> Walk<'_, 'm> {
     /// A loop: each pass where its bounds are known and it refers to its variable, else the first.
     pub(super) fn repeat(
         &mut self,

@@ -246,14 +246,8 @@ impl<'a> StatementReader<'a> {
         self.add(token, StatementKind::Flow { word: word.to_string(), flow });
         Ok(())
     }
-}
 
-impl StatementReader<'_> {
-    pub(crate) fn begin_routine(
-        &mut self,
-        kind: RoutineKind,
-        first: Token,
-    ) -> Result<(), RapidFault> {
+    fn begin_routine(&mut self, kind: RoutineKind, first: Token) -> Result<(), RapidFault> {
         self.close_all()?;
         self.tokens.take()?;
         let mut data_type = None;
@@ -377,7 +371,7 @@ impl StatementReader<'_> {
         }
     }
 
-    pub(crate) fn end_routine(&mut self, kind: RoutineKind) -> Result<(), RapidFault> {
+    fn end_routine(&mut self, kind: RoutineKind) -> Result<(), RapidFault> {
         if let Some((_, end)) = self.written.blocks.innermost() {
             self.complain(self.tokens.unexpected(end))?;
             self.close_blocks(0, self.tokens.peek().start);
