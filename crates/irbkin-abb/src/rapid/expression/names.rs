@@ -139,20 +139,6 @@ const SPEEDS: [u16; 25] = [
 /// The speed of `vmax` [mm/s]: more than any robot reaches. A controller has its robot's.
 const VMAX: f64 = 10_000.0;
 
-/// External axes have the numbers of the reorientation. The first one is `fine`.
-fn zone(index: usize) -> ZoneData {
-    let (_, tcp, ori, degrees) = ZONES[index];
-    ZoneData {
-        finep: index == 0,
-        pzone_tcp_mm: tcp,
-        pzone_ori_mm: ori,
-        pzone_eax_mm: ori,
-        zone_ori_deg: degrees,
-        zone_leax_mm: ori,
-        zone_reax_deg: degrees,
-    }
-}
-
 pub(crate) fn predefined_names(data_type: DataType) -> Vec<String> {
     match data_type {
         DataType::ToolData => Vec::from(["tool0".to_string()]),
@@ -203,8 +189,17 @@ pub(crate) fn predefined(lower: &str) -> Option<Value> {
             Some(Value::SpeedData(SpeedData::of(speed)))
         }
         b'f' | b'z' => {
-            let place = ZONES.iter().position(|(name, ..)| *name == lower)?;
-            Some(Value::ZoneData(zone(place)))
+            let (name, tcp, ori, degrees) = *ZONES.iter().find(|(name, ..)| *name == lower)?;
+            // External axes have the numbers of the reorientation.
+            Some(Value::ZoneData(ZoneData {
+                finep: name == "fine",
+                pzone_tcp_mm: tcp,
+                pzone_ori_mm: ori,
+                pzone_eax_mm: ori,
+                zone_ori_deg: degrees,
+                zone_leax_mm: ori,
+                zone_reax_deg: degrees,
+            }))
         }
         _ => None,
     }
