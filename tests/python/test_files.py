@@ -47,7 +47,7 @@ WRITERS = {
     "arms.csv": by_command("catalog"),
     "poses.csv": by_command("fk", NAME, 10, 20, 10, 0, 30, 0),
     "moves.csv": by_command("rapid", NAME, "-"),
-    "study.csv": by_command("arms", PACKAGE.parents[1] / "examples" / "seam.mod", "--arm", NAME),
+    "study.csv": by_command("arms", "-", "--arm", NAME),
     "picture.svg": by_command("plot", NAME),
     "arm.urdf": by_command("urdf", NAME),
     "arm.json": by_command("view", NAME),
