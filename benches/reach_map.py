@@ -1,4 +1,4 @@
-"""The cost of a map of reach, on one and on two threads, and written into a file.
+"""The cost of a map of reach, on one and on two threads.
 
 POSES is about the number of poses, 10^6 if not given; QUICK=1 takes 10^5. Each row runs in a
 process of its own; memory is its peak.
@@ -10,7 +10,6 @@ import os
 import resource
 import subprocess
 import sys
-import tempfile
 import time
 
 import irbkin
@@ -22,8 +21,6 @@ POSES = 1e5 if QUICK else float(os.environ.get("POSES", "1e6"))
 ROWS = {
     "one thread": 1,
     "two threads": 2,
-    # On one thread.
-    "into a file": 0,
 }
 
 
@@ -45,12 +42,8 @@ def mapped(threads: int) -> None:
     """Make the map, and print what it took."""
     robot, axes, orientations = grid()
     before, begin = usage(), time.perf_counter()
-    with tempfile.TemporaryDirectory() as folder:
-        if threads:
-            found = irbkin.map.reach(robot, *axes, orientations, threads=threads)
-        else:
-            found = irbkin.map.reach(robot, *axes, orientations, output=f"{folder}/map.npz")
-        duration, after = time.perf_counter() - begin, usage()
+    found = irbkin.map.reach(robot, *axes, orientations, threads=threads)
+    duration, after = time.perf_counter() - begin, usage()
     poses = found.reached.size * len(orientations)
     print(
         f"{poses:12,} poses {duration:8.1f} s {1e9 * duration / poses:6.0f} ns a pose"

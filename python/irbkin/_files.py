@@ -109,26 +109,6 @@ def replaced(path: str | os.PathLike[str], before: bytes | None = None) -> Itera
         raise OSError(error.errno, f"cannot be written: {error.strerror}", name) from None
 
 
-@contextlib.contextmanager
-def continued(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """A file to read and write, created if it does not exist; written parts stay after an error.
-
-    Raises:
-        OSError: It cannot be written, or is a link.
-    """
-    name = os.fspath(path)
-    if os.path.islink(name):
-        raise FileExistsError(f"{name} is a link: remove it or choose another output")
-    flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
-    try:
-        with open(os.open(name, flags, 0o666), "r+b") as file:
-            yield file
-    except OSError as error:
-        if error.errno is None or error.filename not in (None, name):
-            raise
-        raise OSError(error.errno, f"cannot be written: {error.strerror}", name) from None
-
-
 def write_columns(
     columns: Mapping[str, Any], path_or_file: str | os.PathLike[str] | IO[str]
 ) -> None:

@@ -1,8 +1,6 @@
 """Maps of reach and dexterity over a grid of positions and orientations; docs/guide/recipes.md has
 one of many processes.
 
-A map in a file is written block by block, so that a run that was ended goes on where it was.
-
 >>> import irbkin, irbkin.map
 >>> robot = irbkin.Robot("IRB 2600-12/1.65")
 >>> spread = irbkin.map.orientations(20)
@@ -13,39 +11,24 @@ A map in a file is written block by block, so that a run that was ended goes on 
 
 from __future__ import annotations
 
-import contextlib
-import errno
-import hashlib
-import os
-import pickle
-import zipfile
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Sequence
 from os import PathLike
-from pathlib import Path
-from typing import IO, Any, BinaryIO, NamedTuple
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin import __version__
 from irbkin._arguments import Bar, Report, check_robot, count, reporter
 from irbkin._arrays import Floats, all_poses, as_array, finite, rotations
 from irbkin._core import Cell, Robot
 from irbkin._equality import by_value
-from irbkin._files import continued, replaced, write_columns
+from irbkin._files import write_columns
 from irbkin._words import counted
-from irbkin.errors import InvalidPoseError, IrbkinError
+from irbkin.errors import InvalidPoseError
 
-__all__ = ["ReachMap", "load", "orientations", "reach"]
+__all__ = ["ReachMap", "orientations", "reach"]
 
-FIELDS = {"reached": "<i8", "solutions": "<i8", "margin": "<f8", "singularities": "<f8"}
-RECORD = np.dtype([*FIELDS.items()])
-"""The numbers of a position."""
-INPUTS = ("robot", "q7", "cell", "version of irbkin")
-"""Inputs of a map beside its grid."""
-GRID = ("x", "y", "z", "orientations")
-Job = Mapping[str, npt.NDArray[Any]]
-"""The inputs of a map, as its file has them beside the numbers: digests, "job", and GRID."""
 # Poses of a block: a tenth of a second and more.
 IN_A_BLOCK = 1 << 18
 
@@ -159,7 +142,6 @@ def reach(
     *,
     q7: float | None = None,
     cell: Cell | None = None,
-    output: str | PathLike[str] | None = None,
     threads: int = 1,
     block: int | None = None,
     progress: Report | Bar | None = None,
@@ -180,8 +162,6 @@ def reach(
         orientations: Orientations of the tool, shape (o, 3, 3), or (3, 3) for one.
         q7: Angle of joint 7 of a seven-axis arm [rad].
         cell: Obstacles around the arm; none when not given.
-        output: File (.npz) of the map, which `load` reads. A run that was ended goes on where it
-            was; blocks that are ready are kept in a file beside it until the map is whole.
         threads: Number of threads for each block; 0 for one a core.
         block: Positions of a block; about 260,000 poses when not given.
         progress: Called with the number of positions that are ready, and of all; or a bar as
@@ -193,93 +173,57 @@ def reach(
         InvalidModelError: The first six joints do not move the tool in six independent ways; with
             `cell`, the robot has no body.
         TypeError: `q7` of an arm of six joints, or none of one of seven.
-        FileExistsError: `output` is the map of something else.
-        FileNotFoundError: The folder of `output` does not exist.
     """
-    path = None if output is None else Path(output)
-    if path is not None and path.suffix != ".npz":
-        raise IrbkinError(f"output must be a file .npz, got {path}")
-    grid = Grid(robot, (x, y, z), orientations, q7, cell, threads, block, progress)
-    if path is not None:
-        _write(grid, path)
-        return load(path)
-    made = np.concatenate([*grid.blocks(0)]).reshape(grid.shape)
-    columns = {name: made[name].copy() for name in FIELDS}
-    return ReachMap(*grid.axes, grid.orientations, **columns)
-
-
-def _write(grid: Grid, path: Path) -> None:
-    """Write the map of a grid into a file, from where a run was ended."""
-    inputs = (grid.robot, grid.q7, grid.cell, __version__)
-    digests = [hashlib.sha256(pickle.dumps(it, protocol=4)).hexdigest() for it in inputs]
-    places = dict(zip(GRID, (*grid.axes, grid.orientations), strict=True))
-    job = {"job": np.array(digests), **places}
-    if is_in(path, job):
-        grid.report(grid.size, grid.size)
-        return
-    with records(path, job) as (file, ready):
-        for found in grid.blocks(ready):
-            file.write(found.tobytes())
-            file.flush()
-
-
-class Grid:
-    """The grid to map: the arguments of `reach`, checked."""
-
-    def __init__(
-        self,
-        robot: Robot,
-        axes: Sequence[npt.ArrayLike],
-        orientations: npt.ArrayLike,
-        q7: float | None,
-        cell: Cell | None,
-        threads: int,
-        block: int | None,
-        progress: Report | Bar | None,
-    ) -> None:
-        check_robot(robot)
-        self.report, self.threads = reporter(progress), threads
-        x, y, z = (
-            finite(np.atleast_1d(np.asarray(values)), name, (None,), InvalidPoseError)
-            for name, values in zip("xyz", axes, strict=True)
+    check_robot(robot)
+    report = reporter(progress)
+    places = {
+        name: finite(np.atleast_1d(np.asarray(values)), name, (None,), InvalidPoseError)
+        for name, values in {"x": x, "y": y, "z": z}.items()
+    }
+    axes = [*places.values()]
+    rotations = _rotations(robot, orientations, q7)
+    at_once = max(1, IN_A_BLOCK // len(rotations))
+    if block is not None:
+        at_once = count(block, "block", InvalidPoseError)
+    if cell is None and robot.body is not None:
+        cell = Cell()
+    shape = tuple(map(len, axes))
+    size = math.prod(shape)
+    reached, solutions = np.zeros((2, *shape), np.int64)
+    margin, singularities = np.zeros((2, *shape))
+    report(0, size)
+    for low in range(0, size, at_once):
+        high = min(low + at_once, size)
+        own = slice(low, high)
+        # Without a name, poses are gone before the next ones are made.
+        found = robot.ik_margin(
+            _poses(axes, rotations, np.arange(low, high)), q7, threads=threads, cell=cell
         )
-        self.axes = x, y, z
-        self.shape = tuple(map(len, self.axes))
-        self.orientations = _rotations(robot, orientations, q7)
-        self.robot, self.q7 = robot, None if q7 is None else float(q7)
-        self.cell = Cell() if cell is None and robot.body is not None else cell
-        self.block = max(1, IN_A_BLOCK // len(self.orientations))
-        if block is not None:
-            self.block = count(block, "block", InvalidPoseError)
-
-    @property
-    def size(self) -> int:
-        return int(np.prod(self.shape))
-
-    def blocks(self, first: int) -> Iterator[npt.NDArray[Any]]:
-        """The records of positions from `first` on, in blocks."""
-        self.report(first, self.size)
-        for low in range(first, self.size, self.block):
-            high = min(low + self.block, self.size)
-            yield self.solved(low, high)
-            self.report(high, self.size)
-
-    def solved(self, first: int, last: int) -> npt.NDArray[Any]:
-        """The records of positions by their numbers, of which x is the slowest."""
-        poses = np.zeros((last - first, len(self.orientations), 4, 4))
-        poses[..., :3, :3] = self.orientations
-        poses[..., 3, 3] = 1.0
-        indices = np.unravel_index(np.arange(first, last), self.shape)
-        for column, (axis, index) in enumerate(zip(self.axes, indices, strict=True)):
-            poses[..., column, 3] = axis[index, None]
-        found = self.robot.ik_margin(poses, self.q7, threads=self.threads, cell=self.cell)
-        made = np.zeros(last - first, RECORD)
-        made["reached"] = (found.solutions > 0).sum(axis=1)
-        made["solutions"] = found.solutions.sum(axis=1, dtype=np.int64)
+        reached.flat[own] = (found.solutions > 0).sum(axis=1)
+        solutions.flat[own] = found.solutions.sum(axis=1, dtype=np.int64)
         # NaN where there is no solution.
-        made["margin"] = np.fmin.reduce(found.margin, axis=1)
-        made["singularities"] = np.fmin.reduce(found.singularities, axis=1)
-        return made
+        margin.flat[own] = np.fmin.reduce(found.margin, axis=1)
+        singularities.flat[own] = np.fmin.reduce(found.singularities, axis=1)
+        report(high, size)
+    return ReachMap(
+        **places,
+        orientations=rotations,
+        reached=reached,
+        solutions=solutions,
+        margin=margin,
+        singularities=singularities,
+    )
+
+
+def _poses(axes: Sequence[Floats], rotations: Floats, places: npt.NDArray[np.int_]) -> Floats:
+    """Every rotation at positions by their numbers, of which x is the slowest."""
+    poses = np.zeros((len(places), len(rotations), 4, 4))
+    poses[..., :3, :3] = rotations
+    poses[..., 3, 3] = 1.0
+    indices = np.unravel_index(places, tuple(map(len, axes)))
+    for column, (axis, index) in enumerate(zip(axes, indices, strict=True)):
+        poses[..., column, 3] = axis[index, None]
+    return poses
 
 
 def _rotations(robot: Robot, given: npt.ArrayLike, q7: float | None) -> Floats:
@@ -294,78 +238,3 @@ def _rotations(robot: Robot, given: npt.ArrayLike, q7: float | None) -> Floats:
         except InvalidPoseError as fault:
             raise InvalidPoseError(f"orientations[{index}]: {fault}") from None
     return rotations
-
-
-def is_in(path: Path, job: Job) -> bool:
-    """Whether the map of a job is in a file already; a FileExistsError if something else is."""
-    if not path.exists():
-        return False
-    try:
-        other = _arrays(path, [*job])
-    except IrbkinError as error:
-        raise _another(path, str(error)) from None
-    digests = zip(INPUTS, job["job"], other["job"], strict=True)
-    names = [name for name, own, its in digests if own != its]
-    names += [name for name in GRID if not np.array_equal(job[name], other[name])]
-    if names:
-        raise _another(path, ", ".join(names))
-    return True
-
-
-def _another(path: Path, what: str) -> FileExistsError:
-    return FileExistsError(f"{path} is of another map ({what}): delete it or choose another output")
-
-
-@contextlib.contextmanager
-def records(path: Path, job: Job) -> Iterator[tuple[BinaryIO, int]]:
-    """A file beside `path` that records are appended to, and how many it has; with all, it becomes
-    the file. Two processes that write one map at once write the same.
-
-    Raises:
-        FileExistsError: The file beside it is of another map, or a link.
-        FileNotFoundError: The folder does not exist.
-    """
-    beside = path.with_name(f".{path.name}.part")
-    if not path.parent.is_dir():
-        words = "cannot be written: its folder does not exist"
-        raise FileNotFoundError(errno.ENOENT, words, str(path))
-    begin = hashlib.sha256(b"".join(it.tobytes() for it in job.values())).digest()
-    with continued(beside) as file:
-        if not begin.startswith(file.read(len(begin))):
-            raise _another(beside, "a run of it was ended")
-        file.seek(0)
-        file.write(begin)
-        count = (file.seek(0, os.SEEK_END) - len(begin)) // RECORD.itemsize
-        file.seek(len(begin) + count * RECORD.itemsize)
-        yield file, count
-        file.flush()
-        # Of the columns only what is written at a time is in memory.
-        whole = np.memmap(file, RECORD, "r", len(begin), tuple(len(job[it]) for it in "xyz"))
-        columns: dict[str, Any] = {**job, **{name: whole[name] for name in FIELDS}}
-        with replaced(path) as archive:
-            np.savez(archive, **columns)
-        # Windows removes no file that is mapped.
-        del whole
-    beside.unlink(missing_ok=True)
-
-
-def _arrays(path: Path, names: Sequence[str]) -> dict[str, npt.NDArray[Any]]:
-    """Some arrays of a file, all of which it must have."""
-    with path.open("rb") as file:
-        try:
-            stored = np.load(file)
-            if missing := sorted({*names} - {*stored.files}):
-                raise ValueError(f"it has no {missing[0]}")
-            return {name: stored[name] for name in names}
-        except (AttributeError, TypeError, ValueError, EOFError, zipfile.BadZipFile) as fault:
-            raise IrbkinError(f"{path} is not a map: {fault}") from fault
-
-
-def load(path: str | PathLike[str]) -> ReachMap:
-    """Read a map that `reach` has written.
-
-    Raises:
-        OSError: The file cannot be read.
-        IrbkinError: It is not a map.
-    """
-    return ReachMap(**_arrays(Path(path), ReachMap._fields))

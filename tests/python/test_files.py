@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 from command import NAME, ROBOT, run
 from irbkin import _files, scene, trajectory
-from irbkin import map as maps
 from irbkin.check import fixes
 from irbkin.cli import VERBS, parser_of
 from test_check import SEAM
@@ -21,7 +20,6 @@ from test_check import SEAM
 PACKAGE = Path(irbkin.__file__).parent
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
 MOVE = trajectory.joint(np.zeros(6), np.full(6, 0.1), max_velocity=1.0, max_acceleration=9.0)
-AXES = np.linspace(0.8, 1.0, 40), np.linspace(0.0, 0.2, 40), [0.5]
 XYZ = ["--xyz", 850, 320, 640]
 
 
@@ -40,7 +38,6 @@ WRITERS = {
     "scene.json": lambda path: scene.of(ROBOT).save(path),
     "move.csv": MOVE.to_csv,
     "move.csv.gz": MOVE.to_csv,
-    "map.npz": lambda path: maps.reach(ROBOT, *AXES, [np.eye(3)], output=path),
     "solutions.csv": by_command("ik", NAME, *XYZ),
     "solutions.json": by_command("ik", NAME, *XYZ),
     "solutions.npy": by_command("ik", NAME, *XYZ),
@@ -53,8 +50,6 @@ WRITERS = {
     "arm.json": by_command("view", NAME),
     "report.txt": by_command("check", "--robot", NAME, PACKAGE.parents[1] / "examples"),
 }
-# A map does not take the place of another one.
-OVER = [name for name in WRITERS if name != "map.npz"]
 
 
 @pytest.fixture
@@ -79,7 +74,7 @@ def test_nothing_is_written_through_a_link_out_of_the_folder(tmp_path, name):
     (here / name).unlink()
     for target in (precious, tmp_path / "absent"):
         (here / name).symlink_to(target)
-        with pytest.raises((OSError, ValueError), match=r"link out of its folder|is not a map"):
+        with pytest.raises((OSError, ValueError), match="link out of its folder"):
             WRITERS[name](here / name)
         assert (here / name).is_symlink()
         (here / name).unlink()
@@ -87,15 +82,7 @@ def test_nothing_is_written_through_a_link_out_of_the_folder(tmp_path, name):
     assert sorted(it.name for it in tmp_path.iterdir()) == ["here", "precious"]
 
 
-def test_the_parts_of_a_map_are_not_kept_behind_a_link(tmp_path):
-    (tmp_path / "elsewhere").mkdir()
-    (tmp_path / ".map.npz.part").symlink_to("elsewhere")
-    with pytest.raises(FileExistsError, match="is a link: remove it"):
-        maps.reach(ROBOT, *AXES, [np.eye(3)], output=tmp_path / "map.npz")
-    assert not list((tmp_path / "elsewhere").iterdir())
-
-
-@pytest.mark.parametrize("name", OVER)
+@pytest.mark.parametrize("name", WRITERS)
 def test_permissions_are_kept_whatever_the_umask_is(tmp_path, umask, name):
     WRITERS[name](file := tmp_path / name)
     assert stat.S_IMODE(file.stat().st_mode) == 0o644
@@ -118,10 +105,7 @@ def test_permissions_are_kept_whatever_the_umask_is(tmp_path, umask, name):
 @pytest.mark.parametrize("name", WRITERS)
 def test_on_a_full_disk_the_old_file_is_whole(tmp_path, name):
     file = tmp_path / name
-    if name != "map.npz":
-        file.write_bytes(b"as it was")
-    # What is ready of a map stays in a file of its own.
-    kept = ".map.npz.part" if name == "map.npz" else name
+    file.write_bytes(b"as it was")
     # Files may have 100 bytes.
     code = f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
     code += "import resource, signal, test_files\nsignal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
@@ -133,11 +117,8 @@ def test_on_a_full_disk_the_old_file_is_whole(tmp_path, name):
     )
     assert done.returncode == 3, done.stderr
     left = {it.name for it in tmp_path.rglob("*") if it.is_file()}
-    assert left == {kept}
-    if name != "map.npz":
-        assert file.read_bytes() == b"as it was"
-    else:
-        assert WRITERS[name](file) == maps.reach(ROBOT, *AXES, [np.eye(3)])
+    assert left == {name}
+    assert file.read_bytes() == b"as it was"
 
 
 def opened_to_write(call):
@@ -202,7 +183,6 @@ def test_what_libraries_write_goes_through_it():
     }
     assert found == {
         # Files of `replaced`, or in memory.
-        ("map.py", "savez", "archive"),
         ("plot.py", "savefig", "file"),
         # A scene, which is a writer above.
         ("cli/plot.py", "save", "output"),
