@@ -28,21 +28,20 @@ def within_limits() -> None:
     save(plot.trajectory(move, robot=ROBOT, max_acceleration=8.0), "motion_limits")
 
 
-def through_the_wrist() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A line on which J5 goes through zero in the middle, and its joints."""
+def through_the_wrist() -> NDArray[np.float64]:
+    """The joints of a line on which J5 goes through zero in the middle."""
     middle = ROBOT.fk([0.3, 0.2, 0.1, 0.7, 0.0, -0.4])
     first, last = middle.copy(), middle.copy()
     first[:3, 3] -= [0.10, 0.25, 0.05]
     last[:3, 3] += [0.10, 0.25, 0.05]
     line = paths.line(first, last, steps=200)
     seed = ROBOT.ik_nearest(first, [0.0, 0.2, 0.1, 0.7, 0.2, -0.4])
-    return line, ROBOT.follow(line, seed).q
+    return ROBOT.follow(line, seed).q
 
 
 def line() -> None:
-    """A line of the tool through the wrist singularity: path, distances, joints in time."""
-    poses, q = through_the_wrist()
-    save(plot.path(poses, frames=5), "motion_path")
+    """A line of the tool through the wrist singularity: distances, joints in time."""
+    q = through_the_wrist()
     assert ROBOT.max_velocity is not None
     timed = trajectory.retime(q, ROBOT.max_velocity, 8.0)
     save(plot.singularity(ROBOT, timed.q, t=timed.t), "motion_singularity")

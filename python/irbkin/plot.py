@@ -1,5 +1,5 @@
-"""Curves of motions, with matplotlib: `pip install 'irbkin[plot]'`. Arms are drawn by
-`irbkin.scene`.
+"""Curves of motions, with matplotlib: `pip install 'irbkin[plot]'`. Arms and paths of the tool are
+drawn by `irbkin.scene`.
 
 Each function returns a `matplotlib.figure.Figure` that a notebook shows as its last line, and
 `.show()` in a window; none touches pyplot before. Angles are in degrees, as engineers read them,
@@ -23,7 +23,6 @@ try:
     import matplotlib as _matplotlib  # noqa: F401
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
-    from matplotlib.ticker import MaxNLocator
 except ImportError as _missing:
     raise ImportError(
         "irbkin.plot needs matplotlib: pip install 'irbkin[plot]'", name="matplotlib"
@@ -31,12 +30,12 @@ except ImportError as _missing:
 
 from irbkin import Robot
 from irbkin._arguments import check_robot
-from irbkin._arrays import Floats, as_array, evenly, limit_of_each
-from irbkin.errors import InvalidJointsError, InvalidMotionError, InvalidPoseError
+from irbkin._arrays import Floats, as_array, limit_of_each
+from irbkin.errors import InvalidJointsError, InvalidMotionError
 from irbkin.records import Plan
 from irbkin.trajectory import Trajectory
 
-__all__ = ["path", "plan", "singularity", "trajectory"]
+__all__ = ["plan", "singularity", "trajectory"]
 
 Canvas = Figure | SubFigure
 
@@ -52,16 +51,6 @@ QUANTITIES = (("position", "deg"), ("velocity", "deg/s"), ("acceleration", "deg/
 POINTS = 241
 ALL = np.array([0.0, 100.0])
 """All of a range [%]."""
-# x, y and z of a frame: a color and dashes each.
-AXES: tuple[tuple[str, str, Any], ...] = (
-    ("tool x", "#d62728", "-"),
-    ("tool y", "#2ca02c", "--"),
-    ("tool z", "#1f77b4", ":"),
-)
-# Parts of the longest extent: the arrows of a frame, and the least extent of an axis that is shown.
-FRAME, LEAST = 0.12, 0.3
-# Between tick labels and the label of an axis [pt].
-PAD = 9
 
 
 class Picture(Figure):
@@ -123,11 +112,11 @@ def tidy(axes: Axes) -> None:
     axes.tick_params(labelsize=FONT)
 
 
-def legend(drawn: Canvas, axes: Axes, columns: int, size: int = FONT) -> None:
+def legend(drawn: Canvas, axes: Axes, columns: int) -> None:
     """Give a figure the legend of one of its axes, below it."""
     handles, labels = axes.get_legend_handles_labels()
     place: Any = {"loc": "outside lower center", "ncols": columns, "frameon": False}
-    drawn.legend(handles, labels, fontsize=size, handlelength=3.2, **place)
+    drawn.legend(handles, labels, fontsize=FONT, handlelength=3.2, **place)
 
 
 def shade(axes: Axes, bounds: Floats) -> None:
@@ -391,61 +380,3 @@ def singularity(
     along_x(grid[-1], along, "row of q" if t is None else "time [s]")
     drawn.align_ylabels()
     return whole(drawn)
-
-
-def path(poses: npt.ArrayLike, *, frames: int = 6, figure: Canvas | None = None) -> Figure:
-    """Draw the path of the tool in space, with the frame of the tool at some poses.
-
-    Args:
-        poses: Poses of the tool, shape (m, 4, 4), of `irbkin.paths` or `robot.fk(q)`. Where a pose
-            is NaN, the line has a gap.
-        frames: How many poses show their frame, evenly over the indices; 0 for none.
-        figure: Where to draw; a new figure if not given.
-
-    Returns:
-        The figure: one 3-D panel, its axes in m at one scale.
-
-    Raises:
-        InvalidPoseError: `poses` has a wrong shape, or no pose without NaN.
-        ValueError: `frames` is negative.
-    """
-    rows = as_array(poses, "poses", (None, 4, 4), InvalidPoseError)
-    if frames < 0:
-        raise ValueError(f"frames is {frames}, it must be at least 0")
-    known = rows[np.isfinite(rows).all(axis=(1, 2))]
-    if not len(known):
-        raise InvalidPoseError("poses has no pose without NaN or infinity")
-    drawn = canvas(figure, 5.6, 4.6)
-    # matplotlib has no types of 3-D axes.
-    axes: Any = drawn.add_subplot(projection="3d")
-    points = rows[:, :3, 3]
-    axes.plot(*points.T, color=BLACK, linewidth=1.6, label="path of the tool")
-    start = known[0, :3, 3]
-    axes.plot(*start[:, None], color=BLACK, marker="o", linestyle="none", label="start")
-    size = float(np.ptp(known[:, :3, 3], axis=0).max()) or 0.1
-    shown = known[evenly(len(known), frames)]
-    for column, (name, color, dashes) in enumerate(AXES if frames else ()):
-        ends = shown[:, :3, 3] + FRAME * size * shown[:, :3, column]
-        for index, (tail, head) in enumerate(zip(shown[:, :3, 3], ends, strict=True)):
-            line = np.array([tail, head]).T
-            look = {"color": color, "linestyle": dashes, "linewidth": 1.5}
-            axes.plot(*line, label=None if index else name, **look)
-    _view(axes, known[:, :3, 3], size)
-    legend(drawn, axes, 5, FONT - 1)
-    return whole(drawn)
-
-
-def _view(axes: Any, points: Floats, size: float) -> None:
-    """One scale for all axes, none of them flat, the frames inside."""
-    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    half = 0.5 * np.maximum(np.ptp(points, axis=0), LEAST * size) + FRAME * size
-    axes.set(
-        **{f"{name}lim": (m - h, m + h) for name, m, h in zip("xyz", middle, half, strict=True)}
-    )
-    axes.set_box_aspect(tuple(half / half.max()))
-    for name, axis in zip("xyz", (axes.xaxis, axes.yaxis, axes.zaxis), strict=True):
-        axis.set_label_text(f"{name} [m]", fontsize=FONT)
-        axis.labelpad = PAD
-        axis.set_tick_params(labelsize=FONT - 1)
-        # Few ticks: the sides of a box are short on paper.
-        axis.set_major_locator(MaxNLocator(4))

@@ -25,7 +25,6 @@ def every_picture():
     q = MOVE.q
     return {
         "trajectory": plot.trajectory(MOVE),
-        "path": plot.path(ROBOT.fk(q)),
         "singularity": plot.singularity(ROBOT, q),
         "plan": plot.plan(ROBOT, PLAN),
     }
@@ -50,7 +49,6 @@ import numpy as np
 move = irbkin.trajectory.joint(np.zeros(6), np.ones(6))
 robot = irbkin.Robot("IRB 2600-12/1.65")
 irbkin.plot.trajectory(move)
-irbkin.plot.path(robot.fk(move.q))
 irbkin.plot.singularity(robot, move.q)
 assert "matplotlib.pyplot" not in sys.modules
 """
@@ -175,44 +173,6 @@ def test_limits_that_do_not_fit_are_named(options, words):
 def test_what_is_no_trajectory_is_named():
     with pytest.raises(TypeError, match="motion must be a Trajectory, got ndarray"):
         plot.trajectory(MOVE.q)
-
-
-def test_a_path_shows_its_points_and_frames():
-    poses = irbkin.paths.line(T, irbkin.pose([0.85, -0.3, 0.5], wxyz=[0, 0, 1, 0]), steps=40)
-    axes = plot.path(poses, frames=4).axes[0]
-    assert [axes.get_xlabel(), axes.get_ylabel(), axes.get_zlabel()] == ["x [m]", "y [m]", "z [m]"]
-    line, start, *frames = axes.lines
-    np.testing.assert_array_equal(np.array(line.get_data_3d()).T, poses[:, :3, 3])
-    np.testing.assert_array_equal(np.ravel(start.get_data_3d()), poses[0, :3, 3])
-    assert len(frames) == 12
-    shown = poses[[0, 13, 26, 39]]
-    for index, arrow in enumerate(frames):
-        column, place = divmod(index, 4)
-        tail, head = np.array(arrow.get_data_3d()).T
-        np.testing.assert_allclose(tail, shown[place, :3, 3], atol=1e-15)
-        direction = (head - tail) / np.linalg.norm(head - tail)
-        np.testing.assert_allclose(direction, shown[place, :3, column], atol=1e-12)
-    # One scale on all axes.
-    sides = [np.ptp(limits) for limits in (axes.get_xlim(), axes.get_ylim(), axes.get_zlim())]
-    ratios = np.array(sides) / np.array(axes._box_aspect)
-    np.testing.assert_allclose(ratios, ratios[0], rtol=1e-12)
-
-
-def test_a_path_with_a_gap_or_of_one_pose_is_drawn():
-    poses = np.tile(T, (5, 1, 1))
-    assert len(plot.path(poses[:1]).axes[0].lines) == 5
-    poses[2] = np.nan
-    assert len(plot.path(poses, frames=0).axes[0].lines) == 2
-    # As many frames as poses at most.
-    assert len(plot.path(poses, frames=10**9).axes[0].lines) == 2 + 3 * 4
-    with pytest.raises(irbkin.InvalidPoseError, match="poses has no pose without NaN"):
-        plot.path(poses[2:3])
-    with pytest.raises(irbkin.InvalidPoseError, match=r"poses must have shape \(m, 4, 4\), got"):
-        plot.path(T)
-    with pytest.raises(irbkin.InvalidPoseError, match=r"poses must .* got \(0, 4, 4\)"):
-        plot.path(np.empty((0, 4, 4)))
-    with pytest.raises(ValueError, match="frames is -1, it must be at least 0"):
-        plot.path(poses, frames=-1)
 
 
 def test_distances_from_singularities_are_those_of_the_robot():
