@@ -66,13 +66,10 @@ def spelled(element, spelling):
     if spelling == "attributes":
         attributes = "".join(f' {key}="{value}"' for key, value in values.items())
         head = ""
-    elif spelling == "values":
+    else:
         attributes = f' ID="{values["ID"]}"' if "ID" in values else ""
         rest = {key: value for key, value in values.items() if key != "ID"}
         head = "".join(f'<{key} Value="{value}" />' for key, value in rest.items())
-    else:
-        attributes = ""
-        head = "".join(f"<{key}>{value}</{key}>" for key, value in values.items())
     body = "".join(it if isinstance(it, str) else spelled(it, spelling) for it in inside)
     return f"<{name}{attributes}>{head}{body}</{name}>"
 

@@ -127,9 +127,8 @@ def _rows(kinematics: Element) -> tuple[dict[int, _Row], list[bool]]:
 
 def _starts(kinematics: Element) -> dict[int, Floats]:
     """The frames of the joints that start at the base."""
-    bases = [it for it in kinematics if xml.local(it).startswith("kinematicbaseframe")]
-    several = [it for base in bases for it in base if len(it) == 4]
-    frames = [xml.transform(it) for it in several or bases]
+    bases = xml.parts(kinematics, "kinematicbaseframes")
+    frames = [xml.transform(it) for it in bases if len(it) == 4]
     joints = [int(it) for it in xml.numbers(xml.child(kinematics, "basejoints"))] or [0]
     if len(joints) != len(frames):
         raise InvalidModelError(
@@ -173,10 +172,11 @@ def limits_of(element: Element, active: int) -> tuple[Floats, Floats] | None:
     if len(bounds) > MOST_LIMITS:
         raise InvalidModelError(f"has {len(bounds)} limits, at most {MOST_LIMITS} are read")
     if len(given) == len(bounds) * active:
-        for matrix in (np.reshape(given, (active, -1)).T, np.reshape(given, (-1, active))):
-            alone = matrix[(matrix != 0.0).sum(axis=1) == 1]
-            if (alone > 0.0).any(axis=0).all() and (alone < 0.0).any(axis=0).all():
-                return matrix, bounds
+        # RobotStudio writes columns.
+        matrix = np.reshape(given, (active, -1)).T
+        alone = matrix[(matrix != 0.0).sum(axis=1) == 1]
+        if (alone > 0.0).any(axis=0).all() and (alone < 0.0).any(axis=0).all():
+            return matrix, bounds
     raise InvalidModelError(
         f"JointLimitsMatrix has {len(given)} numbers for {len(bounds)} bounds of {active} joints, "
         "or not an upper and a lower limit of each"

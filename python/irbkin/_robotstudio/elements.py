@@ -1,7 +1,7 @@
 """RobotStudio's files: XML, a ZIP of it (.rslib, .rsstn), a ZIP of these (.rspag).
 
-The XML is of unknown spelling: attributes, children with a `Value` or texts, in any case and
-namespace. Names are given in lower case.
+The XML has two spellings, in any namespace: attributes, or children with a `Value`. Names are given
+in lower case.
 """
 
 import io
@@ -29,8 +29,8 @@ MOST_ELEMENTS, LEAST_SIZE = 100_000, 12
 """Elements of any document, and least bytes of each in a larger one: RobotStudio's have 18."""
 MOST_DEPTH = 32
 """Elements of a mechanism in each other: RobotStudio writes five."""
-MOST_TEXT, MOST_NUMBERS = 1_000_000, 100_000
-"""Characters of a text with numbers, and numbers of an element."""
+MOST_NUMBERS = 100_000
+"""Numbers of an element."""
 
 
 def documents(path: str) -> Iterator[tuple[str, bytes]]:
@@ -132,9 +132,9 @@ def local(element: Element) -> str:
     return element.tag.rpartition("}")[2].lower()
 
 
-def child(element: Element | None, *names: str) -> Element | None:
-    """The first child of one of these names."""
-    return next((it for it in element if local(it) in names), None) if element is not None else None
+def child(element: Element | None, name: str) -> Element | None:
+    """The first child of a name."""
+    return next((it for it in element if local(it) == name), None) if element is not None else None
 
 
 def parts(element: Element, name: str) -> list[Element]:
@@ -143,28 +143,31 @@ def parts(element: Element, name: str) -> list[Element]:
     return [] if found is None else [*found]
 
 
-def word(element: Element | None, *names: str) -> str:
-    """An attribute, or what a child holds; empty if there is neither."""
+def word(element: Element | None, name: str) -> str:
+    """An attribute, or the `Value` of a child; empty if there is neither."""
     attributes = {} if element is None else element.attrib
     for key, value in attributes.items():
-        if key.rpartition("}")[2].lower() in names:
+        if key.rpartition("}")[2].lower() == name:
             return value.strip()
-    found = child(element, *names)
-    return "" if found is None else (word(found, "value") or found.text or "").strip()
+    found = child(element, name)
+    return "" if found is None else word(found, "value")
 
 
-def number(element: Element, *names: str) -> float:
-    text = word(element, *names)
-    values = floats(text)
-    if len(values) != 1 or not np.isfinite(values[0]):
-        raise InvalidModelError(f"{names[0]} of {local(element)} is {text!r}, it must be a number")
-    return values[0]
+def number(element: Element, name: str) -> float:
+    text = word(element, name)
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise InvalidModelError(f"{name} of {local(element)} is {text!r}, it must be a number")
+    return value
 
 
-def integer(element: Element, *names: str) -> int:
-    value = number(element, *names)
+def integer(element: Element, name: str) -> int:
+    value = number(element, name)
     if value != int(value):
-        raise InvalidModelError(f"{names[0]} of {local(element)} is {value:g}, not a whole number")
+        raise InvalidModelError(f"{name} of {local(element)} is {value:g}, not a whole number")
     return int(value)
 
 
@@ -172,47 +175,25 @@ def numbers(element: Element | None) -> list[float]:
     """All numbers in an element in their order, as many as its sizes say; none of no element."""
     if element is None:
         return []
-    found: list[float] = []
-    for text in _texts(element):
-        found += floats(text)
-        if len(found) > MOST_NUMBERS:
-            raise InvalidModelError(f"{local(element)} has more than {MOST_NUMBERS} numbers")
-    size = [integer(element, it) for it in ("numrows", "numcols") if word(element, it)]
-    if not np.isfinite(found).all() or (size and len(found) != np.prod(size)):
-        raise InvalidModelError(
-            f"{local(element)} must have {' x '.join(map(str, size)) or 'only'} finite numbers"
-        )
+    sizes = ("numrows", "numcols")
+    own = [it for it in element.iter() if local(it) not in sizes and word(it, "value")]
+    if len(own) > MOST_NUMBERS:
+        raise InvalidModelError(f"{local(element)} has more than {MOST_NUMBERS} numbers")
+    found = [number(it, "value") for it in own]
+    size = [integer(element, it) for it in sizes if word(element, it)]
+    if size and len(found) != np.prod(size):
+        raise InvalidModelError(f"{local(element)} must have {' x '.join(map(str, size))} numbers")
     return found
 
 
-def _texts(element: Element) -> Iterator[str]:
-    yield word(element, "value") or element.text or ""
-    for part in element:
-        if local(part) not in ("numrows", "numcols"):
-            yield from _texts(part)
-        yield part.tail or ""
-
-
-def floats(text: str) -> list[float]:
-    """The numbers of a text; none if it is another one."""
-    if len(text) > MOST_TEXT:
-        raise InvalidModelError(f"has a text of {len(text)} characters, at most {MOST_TEXT}")
-    try:
-        return [float(part) for part in text.replace(",", " ").split()]
-    except ValueError:
-        return []
-
-
 def transform(element: Element) -> Floats:
-    """A rigid transform: RowX, RowY, RowZ and RowT (images of axes and origin), or numbers."""
+    """A rigid transform: RowX, RowY, RowZ and RowT, the images of axes and origin."""
     rows = [it for it in element if local(it) in ("rowx", "rowy", "rowz", "rowt")]
-    values = [number(row, axis) for row in rows for axis in "xyzw"] or numbers(element)
+    values = [number(row, axis) for row in rows for axis in "xyzw"]
     name = local(element)
     if len(values) != 16:
         raise InvalidModelError(f"{name} has {len(values)} numbers, a transform has 16")
-    found = np.reshape(values, (4, 4))
-    # RobotStudio has the translation last: then the zeros are in the last column.
-    found = found.T if (found[:, 3] == [0.0, 0.0, 0.0, 1.0]).all() else found
+    found = np.reshape(values, (4, 4)).T
     skew = np.abs(found[:3, :3] @ found[:3, :3].T - np.eye(3)).max()
     is_turn = skew <= SKEW and np.linalg.det(found[:3, :3]) > 0.0
     if not is_turn or (found[3] != [0.0, 0.0, 0.0, 1.0]).any():
