@@ -7,7 +7,6 @@ import irbkin
 import numpy as np
 import pytest
 from irbkin import scene, trajectory
-from irbkin.scene import _svg
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
@@ -58,7 +57,7 @@ THINGS = {
 def test_a_notebook_shows_little(name):
     text, _ = shown(THINGS[name])
     assert len(text) < 14_000
-    assert ("<svg" in text) == (name != "none")
+    assert ("<svg" in text) == (name in ("robot", "solutions", "yumi"))
 
 
 def test_the_table_of_solutions_has_their_angles():
@@ -86,22 +85,10 @@ def test_the_picture_has_the_faces_of_each_hull_and_the_tones_of_each_capsule():
 
 
 def test_a_trajectory_shows_its_peaks():
-    text, cells = shown(MOVE)
-    assert text.count("<polyline") == 6
+    _, cells = shown(MOVE)
     np.testing.assert_allclose(
         [float(it) for it in cells[1:7]], np.degrees(MOVE.peaks().velocity), atol=0.05
     )
-
-
-@pytest.mark.parametrize("ends", [(-52.85, 40.0), (-179.9, 179.9), (-1.234e-5, 0.0), (-1e7, 1e-9)])
-def test_labels_of_curves_are_inside_the_picture(ends):
-    text = _svg.curves(np.array([0.0, 1.0]), np.array([[ends[0]], [ends[1]]]), "s", "deg")
-    labels = re.findall(r'<text x="([^"]+)"[^>]*text-anchor="end">([^<]*)<', text)
-    assert len(labels) == 3
-    for x, words in labels:
-        # Sans-serif digits of 10 units are 5.6 to 6.4 wide.
-        assert float(x) - 6.4 * len(words) >= 0.0
-        assert float(x) <= _svg.SIZE
 
 
 @pytest.mark.extra
@@ -121,13 +108,3 @@ def test_joints_of_a_view_are_any_array_of_their_number(monkeypatch):
         with pytest.raises(traitlets.TraitError, match=r"q must be 6 finite joint angles \[rad\]"):
             view.q = wrong
         np.testing.assert_allclose(view.q, q, atol=1e-9)
-
-
-def test_a_legend_names_the_joint_of_each_curve():
-    text = _svg.curves(np.linspace(0, 1, 5), np.arange(35.0).reshape(5, 7), "s", "deg")
-    curves = re.findall(r'<polyline [^>]*stroke="(#\w+)"', text)
-    names = re.findall(r'<text x="([\d.]+)" [^>]*fill="(#\w+)">J(\d)<', text)
-    assert [(color, int(name)) for _, color, name in names] == [
-        *zip(curves, range(1, 8), strict=True)
-    ]
-    assert max(float(x) for x, *_ in names) < _svg.SIZE - 14

@@ -1,4 +1,4 @@
-"""HTML of robots, solutions, plans and trajectories for notebooks: a table and a small picture."""
+"""HTML for notebooks: tables of robots, solutions, plans and trajectories; pictures of arms."""
 
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -6,15 +6,12 @@ from html import escape
 import numpy as np
 
 from irbkin import Plan, Robot, Solutions
-from irbkin._arrays import evenly
 from irbkin._shown import facts_of, joints_of
 from irbkin.scene._arms import arm_of, rest
-from irbkin.scene._svg import curves, drawn
+from irbkin.scene._svg import drawn
 from irbkin.trajectory import Trajectory
 
 MOST_ROWS = 16
-CURVES = 120
-"""Points of a curve."""
 
 
 def of_robot(robot: Robot) -> str:
@@ -39,21 +36,19 @@ def of_solutions(solutions: Solutions, robot: Robot) -> str:
 
 
 def of_trajectory(move: Trajectory) -> str:
-    """Return the peaks of a motion and its curves."""
+    """Return the peaks of a motion; `irbkin.plot.trajectory` draws its curves."""
     peaks = move.peaks()
     head = ["", *(f"J{joint + 1}" for joint in range(move.dof))]
     rows = [
         ["fastest [deg/s]", *(f"{it:.1f}" for it in np.degrees(peaks.velocity))],
         ["hardest [deg/s^2]", *(f"{it:.0f}" for it in np.degrees(peaks.acceleration))],
     ]
-    times = np.linspace(0.0, move.duration, CURVES)
-    picture = curves(times, np.degrees(move.sample(times).q), "s", "deg")
     words = [f"{move.duration:.3f} s", f"{len(move.t)} samples"]
-    return _beside(picture, "<b>Trajectory</b>", words, _table(head, rows))
+    return _beside("", "<b>Trajectory</b>", words, _table(head, rows))
 
 
 def of_plan(plan: Plan) -> str:
-    """Return the extremes of a plan and its curves."""
+    """Return the extremes of a plan; `irbkin.plot.plan` draws its curves."""
     q = np.degrees(np.asarray(plan.q))
     known = q[np.isfinite(q).all(axis=1)]
     head = ["", *(f"J{joint + 1}" for joint in range(q.shape[1]))]
@@ -61,11 +56,7 @@ def of_plan(plan: Plan) -> str:
     rows = [[name, *(f"{it:.1f}" for it in most(known, axis=0))] for name, most in extremes.items()]
     words = [f"{len(q)} poses", f"{len(plan.breaks)} breaks" if plan.breaks else "without a break"]
     words += ["certified"] if plan.certified else []
-    picture = ""
-    if len(known):
-        kept = evenly(len(known), CURVES)
-        picture = curves(kept.astype(float), known[kept], "pose", "deg")
-    return _beside(picture, "<b>Plan</b>", words, _table(head, rows))
+    return _beside("", "<b>Plan</b>", words, _table(head, rows))
 
 
 def _beside(picture: str, title: str, words: Iterable[str], table: str) -> str:

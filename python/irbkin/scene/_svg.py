@@ -1,4 +1,4 @@
-"""Small pictures of arms and curves, as SVG without any other package."""
+"""Small pictures of arms, as SVG without any other package."""
 
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -32,7 +32,8 @@ SIZE = 200
 LARGE = 800
 """Width and height of a picture that is a file [px]."""
 GHOST = "#98a2b3"
-LINES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#777777")
+WAY = "#0072b2"
+"""Color of a path of the tool."""
 MOST_GHOSTS = 7
 
 
@@ -159,46 +160,8 @@ def _picture(
         text = "".join(f"M{corners(it)}Z" for it in some)
         lines.append(f'<path d="{text}" fill="{color}" stroke="{color}"/>')
     lines.append("</g>")
-    lines += [f'<polyline points="{corners(it)}" fill="none" stroke="{LINES[0]}"/>' for it in ways]
-    return _svg(lines, size)
-
-
-def curves(x: Floats, rows: Floats, name: str, unit: str) -> str:
-    """Draw a curve for each joint, a column of rows, over x."""
-    low, high = float(rows.min()), float(rows.max())
-    span, wide = max(high - low, 1e-9), max(float(x[-1] - x[0]), 1e-9)
-    labels = f"{high:.4g}", f"{low:.4g}"
-    # A digit of the font of 10 units is at most 6.5 wide.
-    left = max(34.0, 4.0 + 6.5 * max(map(len, labels)))
-    top, width, height = 18.0, SIZE - 6.0 - left, SIZE - 44.0
-    u = left + width * (x - x[0]) / wide
-    v = top + height * (high - rows) / span
-    lines = [
-        f'<path d="M{left} {top}V{top + height}H{left + width}" fill="none" stroke="#999"/>',
-        *(
-            f'<text x="{x:g}" y="{y:g}" font-size="10" fill="currentColor" text-anchor="{anchor}">'
-            f"{words}</text>"
-            for x, y, anchor, words in (
-                (left - 4, top + 8, "end", labels[0]),
-                (left - 4, top + height, "end", labels[1]),
-                (left, SIZE - 12, "start", unit),
-                (left + width, SIZE - 12, "end", f"{float(x[-1]):.4g} {name}"),
-            )
-        ),
-    ]
-    for joint, column in enumerate(v.T):
-        points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(u, column, strict=True))
-        color = LINES[joint % len(LINES)]
-        lines.append(
-            f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.4"/>'
-            f'<text x="{left + 20 * joint:g}" y="11" font-size="10" fill="{color}">J{joint + 1}'
-            "</text>"
-        )
-    return _svg(lines)
-
-
-def _svg(parts: Iterable[str], size: int = SIZE) -> str:
+    lines += [f'<polyline points="{corners(it)}" fill="none" stroke="{WAY}"/>' for it in ways]
     head = f'<svg viewBox="0 0 {SIZE} {SIZE}" width="{size}" height="{size}" role="img"'
     return (
-        f'{head} stroke-linecap="round" xmlns="http://www.w3.org/2000/svg">{"".join(parts)}</svg>'
+        f'{head} stroke-linecap="round" xmlns="http://www.w3.org/2000/svg">{"".join(lines)}</svg>'
     )
