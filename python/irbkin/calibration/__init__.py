@@ -1,7 +1,7 @@
 """Calibration: the parameters of an arm from measured poses or positions of its tool, the place of
 a camera, and the calibration of a Universal Robots machine.
 
-`calibrate`, `hand_eye` and `robot_world` need scipy: `pip install 'irbkin[calibrate]'`. What is
+`calibrate` and `robot_world` need scipy: `pip install 'irbkin[calibrate]'`. What is
 fitted and how is in docs/guide/calibrate.md.
 """
 
@@ -13,7 +13,7 @@ from irbkin.calibration._calibrate import (
     Residuals,
     calibrate,
 )
-from irbkin.calibration._hand_eye import HandEye, hand_eye, robot_world
+from irbkin.calibration._hand_eye import HandEye, robot_world
 from irbkin.calibration._ur import load_ur
 
 __all__ = [
@@ -24,7 +24,6 @@ __all__ = [
     "LeftOutParameter",
     "Residuals",
     "calibrate",
-    "hand_eye",
     "load_ur",
     "robot_world",
 ]

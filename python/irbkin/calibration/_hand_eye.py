@@ -1,6 +1,5 @@
-"""Where a camera, or another sensor, is: A X = X B and A X = Y B."""
+"""Where a camera, or another sensor, is: A X = Y B."""
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +10,7 @@ from irbkin._arrays import Floats
 from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
 from irbkin.calibration._fit import Loss, check_weights, errors_of, outlying, rotation_vectors
 from irbkin.calibration._measurements import read_poses
-from irbkin.calibration._start import fit_shift, nearest_rotation, turns
+from irbkin.calibration._start import fit_shift, turns
 from irbkin.errors import CalibrationError
 
 # Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
@@ -19,6 +18,8 @@ from irbkin.errors import CalibrationError
 LEAST_TURN = 0.05
 # Farthest that a position can be in meters [m].
 FARTHEST = 100.0
+# Poses that determine X and Y: two moves.
+LEAST_POSES = 3
 # Fits with a robust loss, each with the scatter of the one before.
 ROUNDS = 3
 
@@ -28,58 +29,16 @@ class HandEye(NamedTuple):
 
     x: Floats
     """X, shape (4, 4)."""
-    y: Floats | None
-    """Y, shape (4, 4); None for A X = X B."""
+    y: Floats
+    """Y, shape (4, 4)."""
     position_error: Floats
-    """Distance of A X from Y B, or X B, for each pair [m], shape (m,)."""
+    """Distance of A X from Y B, for each pair [m], shape (m,)."""
     rotation_error: Floats
     """Angle between their rotations [rad], shape (m,)."""
     measured: Floats
-    """Positions of Y B, or X B [m], shape (m, 3)."""
+    """Positions of Y B [m], shape (m, 3)."""
     fitted: Floats
     """Positions of A X [m], shape (m, 3)."""
-
-
-def hand_eye(
-    a: npt.ArrayLike,
-    b: npt.ArrayLike,
-    *,
-    position_std: float = 1e-4,
-    rotation_std: float = 5e-4,
-    loss: Loss = "linear",
-) -> HandEye:
-    """Return X of A X = X B: A are moves of the hand, B the moves that its camera sees. It needs
-    scipy: `pip install 'irbkin[calibrate]'`.
-
-    With a camera on the hand, F_i = `robot.fk(q)` and C_i the pose of a fixed target in the
-    camera, moves are A = F_j^-1 F_i and B = C_j C_i^-1, and X is the camera in the hand.
-    `robot_world` takes F_i and C_i^-1 themselves.
-
-    Args:
-        a: Moves, shape (m, 4, 4), m >= 2.
-        b: Moves, shape (m, 4, 4).
-        position_std: Standard deviation of a coordinate [m].
-        rotation_std: Standard deviation of an angle [rad]. Only their ratio matters.
-        loss: As of `irbkin.calibrate`: any but "linear" gives outliers less weight.
-
-    Raises:
-        ImportError: scipy is not installed.
-        InvalidPoseError: A wrong shape, or a matrix that is not a pose.
-        CalibrationError: Too few moves, rotations about parallel axes, or half of them far off.
-        ValueError: Another `loss` or standard deviation.
-    """
-    hands, eyes = _pairs(a, b, 2)
-    check_weights(position_std, rotation_std, loss)
-    _check_turns(hands[:, :3, :3], "a")
-    _check_turns(eyes[:, :3, :3], "b")
-    start = np.eye(4)
-    start[:3, :3] = nearest_rotation(
-        rotation_vectors(hands[:, :3, :3]).T @ rotation_vectors(eyes[:, :3, :3])
-    )
-    matrix = (hands[:, :3, :3] - np.eye(3)).reshape(-1, 3)
-    wanted = eyes[:, :3, 3] @ start[:3, :3].T - hands[:, :3, 3]
-    start[:3, 3] = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
-    return _refined(lambda x: (hands @ x, x @ eyes), [start], (position_std, rotation_std, loss))
 
 
 def robot_world(
@@ -95,14 +54,15 @@ def robot_world(
 
     With A = `robot.fk(q)`: for a camera on the hand, B is the camera in a fixed target, X the
     camera in the hand and Y the target in the base. For a fixed camera, B is a target on the hand
-    in the camera, X the target in the hand and Y the camera in the base.
+    in the camera, X the target in the hand and Y the camera in the base. Moves of the hand and the
+    moves that a camera sees (A X = X B) are such poses once they are chained, from any first one.
 
     Args:
         a: Poses, shape (m, 4, 4), m >= 3.
         b: Poses, shape (m, 4, 4).
-        position_std: As of `hand_eye`.
-        rotation_std: As of `hand_eye`.
-        loss: As of `hand_eye`.
+        position_std: Standard deviation of a coordinate [m].
+        rotation_std: Standard deviation of an angle [rad]. Only their ratio matters.
+        loss: As of `irbkin.calibrate`: any but "linear" gives outliers less weight.
 
     Raises:
         ImportError: scipy is not installed.
@@ -110,19 +70,49 @@ def robot_world(
         CalibrationError: Too few poses, all turned about one axis, or half of them far off.
         ValueError: Another `loss` or standard deviation.
     """
-    hands, seen = _pairs(a, b, 3)
+    hands, seen = _pairs(a, b)
     check_weights(position_std, rotation_std, loss)
+    from scipy.optimize import least_squares  # type: ignore[import-untyped]
+    from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
+
     for poses, name in ((hands, "a"), (seen, "b")):
         _check_turns(poses[0, :3, :3].T @ poses[1:, :3, :3], name)
     # A = Y B X^-1.
-    y, inverse = np.eye(4), np.eye(4)
-    y[:3, :3], inverse[:3, :3] = turns(seen[:, :3, :3], hands[:, :3, :3])
-    fit_shift(seen, hands[:, :3, 3], y, inverse, frozenset({"base", "tool"}))
-    start = [np.asarray(np.linalg.inv(inverse), dtype=float), y]
-    return _refined(lambda x, y: (hands @ x, y @ seen), start, (position_std, rotation_std, loss))
+    first_y, inverse = np.eye(4), np.eye(4)
+    first_y[:3, :3], inverse[:3, :3] = turns(seen[:, :3, :3], hands[:, :3, :3])
+    fit_shift(seen, hands[:, :3, 3], first_y, inverse, frozenset({"base", "tool"}))
+    start = np.array([np.linalg.inv(inverse), first_y])
+
+    def frames(values: Floats) -> Floats:
+        """X and Y, each turned and shifted by six numbers from where it began."""
+        moved, parts = start.copy(), values.reshape(2, 6)
+        moved[:, :3, :3] = Rotation.from_rotvec(parts[:, :3]).as_matrix() @ start[:, :3, :3]
+        moved[:, :3, 3] += parts[:, 3:]
+        return moved
+
+    def errors(values: Floats) -> tuple[Floats, Floats]:
+        x, y = frames(values)
+        right = y @ seen
+        return errors_of(hands @ x, right[:, :3, 3], right[:, :3, :3])
+
+    def residuals(values: Floats) -> Floats:
+        shift, turn = errors(values)
+        return np.concatenate([shift / position_std, turn / rotation_std], axis=1).ravel()
+
+    values = np.zeros(12)
+    for _ in range(1 if loss == "linear" else ROUNDS):
+        far = outlying(residuals(values))
+        values = least_squares(
+            residuals, values, x_scale="jac", loss=loss, f_scale=far, xtol=1e-14, ftol=1e-14
+        ).x
+    x, y = frames(values)
+    shift, turn = (np.linalg.norm(it, axis=1) for it in errors(values))
+    measured = (y @ seen)[:, :3, 3]
+    _check_near(float(np.median(shift)), float(np.median(turn)), measured)
+    return HandEye(x, y, shift, turn, measured, (hands @ x)[:, :3, 3])
 
 
-def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
+def _pairs(a: npt.ArrayLike, b: npt.ArrayLike) -> tuple[Floats, Floats]:
     check_extra("hand-eye calibration", "calibrate", "scipy")
     first, second = read_poses(a, "a"), read_poses(b, "b")
     for poses, name in ((first, "a"), (second, "b")):
@@ -135,8 +125,8 @@ def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floa
             )
     if len(first) != len(second):
         raise CalibrationError(f"a has {len(first)} poses and b {len(second)}: give pairs")
-    if len(first) < least:
-        raise CalibrationError(f"a has {len(first)} poses, at least {least} are needed")
+    if len(first) < LEAST_POSES:
+        raise CalibrationError(f"a has {len(first)} poses, at least {LEAST_POSES} are needed")
     return first, second
 
 
@@ -159,44 +149,3 @@ def _check_near(distance: float, angle: float, positions: Floats) -> None:
             f"a and b do not fit: half are {distance:.2g} m and {angle:.2g} rad off, at most "
             f"{bound:.2g} m and {FAR_ANGLE} rad is taken (is one inverted, swapped or mirrored?)"
         )
-
-
-def _refined(
-    sides: Callable[..., tuple[Floats, Floats]],
-    start: list[Floats],
-    options: tuple[float, float, str],
-) -> HandEye:
-    """The frames near `start`, X and perhaps Y, for which both sides differ least."""
-    from scipy.optimize import least_squares  # type: ignore[import-untyped]
-    from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
-
-    position_std, rotation_std, loss = options
-
-    def frames(values: Floats) -> list[Floats]:
-        moved = []
-        for frame, part in zip(start, values.reshape(-1, 6), strict=True):
-            turned = frame.copy()
-            turned[:3, :3] = Rotation.from_rotvec(part[:3]).as_matrix() @ frame[:3, :3]
-            turned[:3, 3] += part[3:]
-            moved.append(turned)
-        return moved
-
-    def residuals(values: Floats) -> Floats:
-        left, right = sides(*frames(values))
-        shift, turn = errors_of(left, right[:, :3, 3], right[:, :3, :3])
-        return np.concatenate([shift / position_std, turn / rotation_std], axis=1).ravel()
-
-    values = np.zeros(6 * len(start))
-    for _ in range(1 if loss == "linear" else ROUNDS):
-        far = outlying(residuals(values))
-        values = least_squares(
-            residuals, values, x_scale="jac", loss=loss, f_scale=far, xtol=1e-14, ftol=1e-14
-        ).x
-    found = frames(values)
-    left, right = sides(*found)
-    measured = right[:, :3, 3]
-    errors = errors_of(left, measured, right[:, :3, :3])
-    shift, turn = (np.linalg.norm(it, axis=1) for it in errors)
-    _check_near(float(np.median(shift)), float(np.median(turn)), measured)
-    y = found[1] if len(found) > 1 else None
-    return HandEye(found[0], y, shift, turn, measured, left[:, :3, 3])

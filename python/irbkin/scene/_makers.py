@@ -149,11 +149,8 @@ def _of_map(found: ReachMap) -> Scene:
 
 def _of_calibration(thing: Calibrated, robot: Robot | None, q: npt.ArrayLike | None) -> Scene:
     """A calibration with the arm where it was measured, if that is known."""
-    is_move = isinstance(thing, HandEye) and thing.y is None
     if robot is None and q is not None:
         raise TypeError(f"robot is missing: q is given, but a {type(thing).__name__} has no arm")
-    if is_move and q is None:
-        raise TypeError("robot and q are missing: X of A X = X B has its place on the hand")
     if isinstance(thing, Calibration):
         robot, q = thing.robot, thing.q
     arms: tuple[Arm, ...] = ()
@@ -169,8 +166,7 @@ def _of_calibration(thing: Calibrated, robot: Robot | None, q: npt.ArrayLike | N
         postures = (Posture(rows(angles[it]), f"measurement {it}", it > 0) for it in kept)
         arms = (arm_of(drawn, postures),)
     own = Scene(arms=arms, frames=tuple(_frames(thing, at)))
-    # Both sides of A X = X B are moves: they have no place.
-    return own if is_move else own + _residuals(thing.measured, thing.fitted)
+    return own + _residuals(thing.measured, thing.fitted)
 
 
 def _frames(thing: Calibrated, at: Floats | None) -> list[Frame]:

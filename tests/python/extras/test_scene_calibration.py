@@ -64,14 +64,6 @@ def test_a_camera_is_drawn_on_the_hand_and_what_it_sees_in_the_base():
     np.testing.assert_allclose(camera.pose, hands[0] @ found.x, rtol=0, atol=1e-12)
     np.testing.assert_array_equal(target.pose, found.y)
     assert [it.name for it in scene.of(found).frames] == ["Y"]
-    inverse = np.linalg.inv(seen)
-    moves = np.linalg.inv(hands[1:]) @ hands[:-1], inverse[1:] @ np.linalg.inv(inverse[:-1])
-    moved = calibration.hand_eye(*moves)
-    own = scene.of(moved, ROBOT, q=Q)
-    assert own.paths == own.clouds == own.marks == ()
-    np.testing.assert_allclose(own.frames[0].pose, hands[0] @ moved.x, rtol=0, atol=1e-12)
-    with pytest.raises(TypeError, match="robot and q are missing: X of A X = X B"):
-        scene.of(moved)
     with pytest.raises(TypeError, match="robot is missing: q is given, but a HandEye has no arm"):
         scene.of(found, q=Q)
     with pytest.raises(TypeError, match="q is given, but a Calibration has its own joint angles"):
