@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from backups import LIMITS, MOC, SMALL, arms, backinfo, cfg, robot, written
 from cases import numbers, read
-from irbkin.abb import load_backup, task_files
+from irbkin.abb import load_backup
 from test_controller_cases import CONFDATA, frame, tool_pose
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "backup"
@@ -115,7 +115,7 @@ def test_the_example_says_what_holds():
         "RAPID/TASK1/SYSMOD/user.sys",
         "HOME/cell/CellData.sys",
     ]
-    assert all(path.is_file() for path in task_files(backup, "T_ROB2"))
+    assert all(it.path.is_file() for it in backup.task("T_ROB2").modules)
     assert [str(it) for it in backup.findings] == [
         "SYSPAR/MOC.cfg:116: note: ROB_2: J2 is limited to -75..150 deg, -90..150 deg in the "
         "catalog [limits-differ]",

@@ -8,7 +8,7 @@ docs/guide/backup.md has an example.
 """
 
 from irbkin.abb.backinfo import BackInfo, parse_backinfo
-from irbkin.abb.backup import Backup, Controller, task_files
+from irbkin.abb.backup import Backup, Controller
 from irbkin.abb.cfg import CfgFile, Instance, parse_cfg
 from irbkin.abb.differences import Change, Difference, TargetChange, diff
 from irbkin.abb.findings import Finding
@@ -37,5 +37,4 @@ __all__ = [
     "load_backup",
     "parse_backinfo",
     "parse_cfg",
-    "task_files",
 ]

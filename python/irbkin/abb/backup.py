@@ -4,7 +4,6 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from os import PathLike
 from pathlib import Path
 from typing import Literal
 
@@ -170,19 +169,6 @@ class Backup:
             return unit.robot
         return unit.robot.with_base(self.base_at(unit.name, external_mm_deg))
 
-    def has_checksum(self, path: str | PathLike[str]) -> bool:
-        """Return whether checksum.txt covers a file: changed, it no longer agrees with its line.
-
-        Args:
-            path: The file: an absolute path, or one relative to the backup.
-        """
-        path = Path(path)
-        if path.is_absolute():
-            if not path.is_relative_to(self.path):
-                return False
-            path = path.relative_to(self.path)
-        return path.as_posix().lower() in self.checksums
-
     @cached_property
     def programs(self) -> Mapping[str, Program]:
         """The programs of the tasks that have modules, by name. A file of an archive has its path
@@ -200,12 +186,6 @@ def _base_of(unit: RobotUnit | ExternalUnit) -> Pose:
     if unit.base is None:
         raise InvalidModelError(f"{unit.name}: its base frame is not determined")
     return unit.base
-
-
-def task_files(backup: Backup, task: Task | str) -> tuple[Path, ...]:
-    """Return the files of a task's modules, in the order of `Task.modules`."""
-    of = backup.task(task) if isinstance(task, str) else task
-    return tuple(module.path for module in of.modules)
 
 
 def unit_rows(backup: Backup, robot: str) -> list[UnitRow]:

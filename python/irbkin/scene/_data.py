@@ -184,8 +184,6 @@ class Mark(_Part):
     """"error", "warning" or "note"."""
     place: str = ""
     """File and line, as "cell.mod:12"."""
-    t: float | None = None
-    """When it happens [s]."""
 
 
 @dataclass(frozen=True, repr=False)

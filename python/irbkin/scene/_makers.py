@@ -135,7 +135,7 @@ def _mark(made: RoutineMotion, poses: Floats, finding: Finding) -> Mark:
     sample = int(before[-1]) if len(before) else 0
     text = f"{finding.code} {finding.message}"
     place = f"line {finding.line}"
-    return Mark(rows(poses[sample, :3, 3]), text, finding.severity, place, float(made.t[sample]))
+    return Mark(rows(poses[sample, :3, 3]), text, finding.severity, place)
 
 
 def _of_map(found: ReachMap) -> Scene:
