@@ -40,7 +40,6 @@ def arm_of(
     robot: Robot,
     postures: Iterable[Posture] | None = None,
     motion: Motion | None = None,
-    name: str | None = None,
 ) -> Arm:
     """Return the arm of a robot.
 
@@ -48,7 +47,6 @@ def arm_of(
         robot: The arm, with its tool, base and body.
         postures: Where it is drawn; at rest when neither they nor a motion are given.
         motion: How it moves.
-        name: Another name than the robot's.
 
     Raises:
         TypeError: `robot` is not a Robot.
@@ -72,7 +70,7 @@ def arm_of(
             body = robot.approximate_body()
     shapes = () if body is None else zip(body.links.tolist(), body.capsules, strict=True)
     return Arm(
-        robot.name if name is None else name,
+        robot.name,
         rows(base),
         tuple(rows(it) for it in between[:-1]),
         rows(between[-1]),

@@ -12,11 +12,6 @@ from irbkin._core import JointTarget, Pose, ToolData, dump, parse
 from irbkin.errors import InvalidJointsError, StreamError
 from irbkin.stream.egm._session import axes_of
 
-SETTINGS = {
-    "RW6": "RobotWare 6.07.01 or later with option 689-1; Transmission Protocol of type UDPUC",
-    "RW7": "RobotWare 7 with option 3124-1; UDP Unicast Device",
-}
-"""The system of the program, and the kind of its device among the system parameters."""
 POSES = ("X", "Y", "Z", "Rx", "Ry", "Rz")
 
 
@@ -24,7 +19,6 @@ def rapid_module(
     robot: Robot,
     start: npt.ArrayLike,
     *,
-    release: Literal["RW6", "RW7"] = "RW7",
     mode: Literal["joint", "pose"] = "joint",
     name: str = "EgmStream",
     device: str = "irbkin",
@@ -38,7 +32,6 @@ def rapid_module(
     Args:
         robot: The arm with its tool.
         start: Joints at which the guard starts [rad], shape (n,).
-        release: "RW6" or "RW7": how the device of the socket is configured.
         mode: As of `Server`.
         name: Name of the module and of its routine.
         device: Name of the UDPUC device, whose Remote Address and Remote Port are the server's.
@@ -46,14 +39,12 @@ def rapid_module(
             1000 mm/s. Without it a controller would move by 1 deg/s.
 
     Raises:
-        StreamError: Another release or mode, no speed is known or it is not positive.
+        StreamError: Another mode, no speed is known or it is not positive.
         RapidError: A name that RAPID does not read.
         InvalidJointsError: The start has another shape, or is not finite.
     """
-    if release not in SETTINGS or mode not in ("joint", "pose"):
-        raise StreamError(
-            f"release is {release!r}, mode {mode!r}: they must be RW6 or RW7, joint or pose"
-        )
+    if mode not in ("joint", "pose"):
+        raise StreamError(f"mode is {mode!r}, it must be joint or pose")
     q = finite(start, "start", (robot.dof,), InvalidJointsError)[axes_of(robot)]
     if max_speed is None and mode == "pose":
         max_speed = 1000.0
@@ -77,8 +68,9 @@ def rapid_module(
     within = "".join(f"\\{axis}:=egmWithin" for axis in axes)
     all_axes = "".join(f"\\{axis}" for axis in axes)
     text = f"""MODULE {name}
-    ! {SETTINGS[release]} {device}:
-    ! its Remote Address and Remote Port lead to the server.
+    ! RobotWare 7 with option 3124-1: the UDP Unicast Device {device};
+    ! from 6.07.01 on with option 689-1: the Transmission Protocol {device} of type UDPUC.
+    ! Its Remote Address and Remote Port lead to the server.
     CONST jointtarget jStart:={dump(target)};
     CONST egm_minmax egmWithin:=[-0.1,0.1];{declared}
     VAR egmident egmId;

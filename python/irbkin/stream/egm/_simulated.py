@@ -49,7 +49,6 @@ class Controller:
         smoothing: float = 0.004,
         ramp: float = 0.5,
         comm_timeout: float = 1.0,
-        max_speed: float = math.inf,
         delay: float = 0.2,
     ) -> None:
         """Start at rest.
@@ -63,7 +62,6 @@ class Controller:
             smoothing: Time constant of the low pass [s]; 0 for level 0, raw.
             ramp: RampInTime and RampOutTime [s].
             comm_timeout: CommTimeout [s].
-            max_speed: MaxSpeedDeviation [rad/s].
             delay: From the first answer to the motion, as between EGMActJoint and EGMRunJoint [s].
         """
         self.robot, self.cycle, self.gain, self.ramp = robot, cycle, gain, ramp
@@ -72,9 +70,8 @@ class Controller:
         self.state: Literal["DISCONNECTED", "CONNECTED", "RUNNING"] = "DISCONNECTED"
         self.seqno, self.ticks = 0, 0
         self._axes = axes_of(robot)
-        self._speeds = np.full(robot.dof, max_speed)
-        if robot.max_velocity is not None:
-            self._speeds = np.minimum(self._speeds, robot.max_velocity)
+        speeds = np.inf if robot.max_velocity is None else robot.max_velocity
+        self._speeds = np.full(robot.dof, speeds)
         self._share = 1.0 if smoothing <= 0 else 1.0 - math.exp(-cycle / smoothing)
         self._timeout, self._delay = comm_timeout / cycle, delay / cycle
         self._set_points = deque([(self.q, self.dq)] * (1 + round(lag / cycle)))
