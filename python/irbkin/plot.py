@@ -1,10 +1,9 @@
 """Curves of motions, with matplotlib: `pip install 'irbkin[plot]'`. Arms and paths of the tool are
 drawn by `irbkin.scene`.
 
-Each function returns a `matplotlib.figure.Figure` that a notebook shows as its last line, and
-`.show()` in a window; none touches pyplot before. Angles are in degrees, as engineers read them,
-lengths in meters. `figure=` takes a figure to draw into, of `pyplot.figure()` for instance, or a
-subfigure.
+Each function returns a `matplotlib.figure.Figure` that a notebook shows as its last line; none
+touches pyplot. Angles are in degrees, as engineers read them, lengths in meters. `figure=` takes a
+figure to draw into: of `pyplot.figure()`, which `pyplot.show()` shows in a window, or a subfigure.
 
 >>> import irbkin.plot
 >>> move = irbkin.trajectory.joint([0, 0], [1, -2], duration=2.0)
@@ -54,37 +53,13 @@ ALL = np.array([0.0, 100.0])
 
 
 class Picture(Figure):
-    """A figure of matplotlib, of no window and without pyplot until it is shown."""
+    """A figure of matplotlib, without pyplot, that notebooks show."""
 
     def _repr_svg_(self) -> str:
-        """Return the picture as a notebook shows it."""
         file = io.StringIO()
         self.savefig(file, format="svg", transparent=False)
         text = file.getvalue()
         return text[text.index("<svg") :]
-
-    def show(self, warn: bool = True) -> None:
-        """Open a window with the figure, and wait until it is closed.
-
-        Args:
-            warn: As matplotlib has it; without effect.
-
-        Raises:
-            RuntimeError: matplotlib has no screen here: `savefig` writes a file.
-        """
-        import matplotlib.pyplot as plt
-
-        window = plt.figure().canvas
-        if window.required_interactive_framework is None:
-            plt.close()
-            raise RuntimeError(
-                f"matplotlib opens no window here (its backend is {plt.get_backend()}): write a "
-                'file with savefig("picture.svg")'
-            )
-        # pyplot makes windows for its own figures only: this one moves into a new window of theirs.
-        window.figure = self
-        self.set_canvas(window)
-        plt.show()
 
 
 def line_style(index: int) -> dict[str, Any]:
