@@ -14,6 +14,8 @@ from irbkin.errors import CalibrationError, InvalidJointsError, InvalidPoseError
 # Ratio of the spreads of measured and nominal positions from which the units differ [1]: inches
 # and centimeters have 39 and 100, no two arms have.
 UNITS = 25.0
+# How far the last row of a pose may be from 0 0 0 1 [1].
+LAST_ROW = 1e-9
 # Largest angle between joint vectors that count as one [rad].
 SAME_JOINTS = 1e-6
 # Least range of a joint that shows its axis [rad].
@@ -78,17 +80,16 @@ def read_poses(value: npt.ArrayLike, name: str) -> Floats:
         InvalidPoseError: A wrong shape, or a matrix that is no pose.
     """
     poses = finite(value, name, (None, 4, 4), InvalidPoseError)
-    return np.array([_pose(matrix, f"{name}[{index}]") for index, matrix in enumerate(poses)])
-
-
-def _pose(matrix: Floats, place: str) -> Floats:
-    last = np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0]).max()
-    if last > 1e-9:
-        raise InvalidPoseError(f"{place}: the last row must be 0 0 0 1, it is off by {last:.1e}")
+    off = np.abs(poses[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1)
+    for index in np.flatnonzero(off > LAST_ROW):
+        raise InvalidPoseError(
+            f"{name}[{index}]: the last row must be 0 0 0 1, it is off by {off[index]:.1e}"
+        )
     try:
-        return pose(matrix[:3, 3], rotation=matrix[:3, :3])
+        return pose(poses[:, :3, 3], rotation=poses[:, :3, :3])
     except InvalidPoseError as fault:
-        raise InvalidPoseError(f"{place}: {fault}") from None
+        # It begins with the row: "row [4]: ..".
+        raise InvalidPoseError(f"{name}{str(fault).removeprefix('row ')}") from None
 
 
 def spread(points: Floats) -> float:

@@ -84,22 +84,21 @@ def chosen(jacobian: Floats, tiers: Sequence[Sequence[int]], least: float) -> li
     """Indices of independent columns of a weighted Jacobian, shape (k, p), earlier tiers first;
     `least` is the part of a column that must be independent.
     """
+    from scipy.linalg import qr  # type: ignore[import-untyped]
+
     scaled = _unit_columns(jacobian)
     basis = np.zeros((len(jacobian), 0))
     found: list[int] = []
-    for tier in tiers:
-        rest = list(tier)
-        while rest:
-            parts = scaled[:, rest]
-            # Twice: once leaves rounding of the removed part.
-            for _ in range(2):
-                parts = parts - basis @ (basis.T @ parts)
-            sizes = np.linalg.norm(parts, axis=0)
-            largest = int(np.argmax(sizes))
-            if sizes[largest] <= least:
-                break
-            basis = np.column_stack([basis, parts[:, largest] / sizes[largest]])
-            found.append(rest.pop(largest))
+    for tier in filter(None, tiers):
+        parts = scaled[:, tier]
+        # Twice: once leaves rounding of the removed part.
+        for _ in range(2):
+            parts = parts - basis @ (basis.T @ parts)
+        q, r, order = qr(parts, mode="economic", pivoting=True)
+        # The diagonal falls.
+        count = np.count_nonzero(np.abs(np.diag(r)) > least)
+        basis = np.column_stack([basis, q[:, :count]])
+        found += [tier[at] for at in order[:count]]
     return sorted(found)
 
 
