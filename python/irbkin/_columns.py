@@ -145,6 +145,5 @@ def of_joint_trajectory(
 
 
 def _time(t: float) -> dict[str, int]:
-    """A time [s] as ROS writes it."""
     sec, nanosec = divmod(round(t * NANOSECONDS), NANOSECONDS)
     return {"sec": sec, "nanosec": nanosec}

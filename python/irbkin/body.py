@@ -47,7 +47,6 @@ def cover(
 
 
 def _fit_body(*arguments: Any) -> Body:
-    """Return the body of a URDF; see `Body.fit`."""
     check_extra("irbkin.body.Body.fit", "mesh", "scipy", "trimesh")
     from irbkin._fit import body_of
 

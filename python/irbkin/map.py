@@ -88,7 +88,6 @@ class ReachMap(NamedTuple):
         write_columns(self.to_dict(), path_or_file)
 
     def __repr__(self) -> str:
-        """The grid, how much of it is reached, and the best position."""
         axes, share = (self.x, self.y, self.z), self.share
         sizes = " x ".join(map(str, share.shape))
         ends = (

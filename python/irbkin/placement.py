@@ -118,7 +118,6 @@ class Placement(NamedTuple):
     """The outcome in a sentence."""
 
     def __repr__(self) -> str:
-        """The outcome, and how many bases of the grid were tried."""
         return f"<Placement: {self.reason}; {self.grid.margin.size:,} bases on the grid>"
 
 

@@ -287,7 +287,6 @@ class Kinematics:
             )
 
     def _planned(self, T: Floats, request: Message) -> Trajectory:
-        """The path in the shortest time within the limits."""
         velocity, acceleration = self._max_velocity, self._max_acceleration
         if velocity is None or acceleration is None:
             missing = "max_velocity" if velocity is None else "max_acceleration"
@@ -463,7 +462,6 @@ def _robot(read: Mapping[str, Any]) -> Robot:
 
 
 def _value(parameter: Parameter, values: Mapping[str, Any]) -> Any:
-    """The value of a parameter, checked to be of its type."""
     value = values.get(parameter.name)
     if value is None:
         return [] if parameter.is_array else parameter.default

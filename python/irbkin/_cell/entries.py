@@ -68,7 +68,6 @@ class Entry:
         return Entry(self.text, self.folder, (*self.keys, key), table, self.solid)
 
     def subs(self, key: str) -> dict[str, Entry]:
-        """The tables in the table of a key, by their names."""
         own = self.sub(key)
         return {name: own.sub(name) for name in own.table}
 

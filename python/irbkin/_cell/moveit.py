@@ -125,7 +125,6 @@ def list_of(entry: Entry, key: str) -> list[Any]:
 
 
 def items_of(entry: Entry, key: str) -> list[Entry]:
-    """The tables in a list."""
     items = []
     for number, value in enumerate(list_of(entry, key)):
         keys = (*entry.keys, f"{key}[{number}]")

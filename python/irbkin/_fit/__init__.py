@@ -61,7 +61,6 @@ def body_of(
     joints: Mapping[str, float] | None,
     progress: Report | Bar | None,
 ) -> Body:
-    """Return the body of a URDF; see `Body.fit`."""
     check(excess, most)
     report = reporter(progress)
     text, folder = text_and_folder(urdf)

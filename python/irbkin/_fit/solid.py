@@ -49,7 +49,6 @@ class Solid:
         self.points = np.concatenate([self.points, inner])
 
     def corners(self, chosen: npt.NDArray[np.bool_]) -> Array:
-        """The corners of some pieces, shape (m, 3)."""
         is_corner = np.zeros(len(self.points), bool)
         is_corner[self.pieces[chosen]] = True
         return self.points[is_corner]
@@ -81,7 +80,6 @@ def doubled_areas(triangles: Array) -> Array:
 
 
 def spread_over(triangles: Array, count: int) -> Array:
-    """Points spread uniformly over triangles."""
     rng = np.random.default_rng(0)
     a, b, c = triangles.transpose(1, 0, 2)
     area = doubled_areas(triangles)

@@ -133,7 +133,6 @@ def local(element: Element) -> str:
 
 
 def child(element: Element | None, name: str) -> Element | None:
-    """The first child of a name."""
     return next((it for it in element if local(it) == name), None) if element is not None else None
 
 

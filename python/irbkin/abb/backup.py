@@ -73,7 +73,6 @@ class Backup:
     _folder: Folder | None = None
 
     def __repr__(self) -> str:
-        """The controller, and what was found on it."""
         machine = self.controller
         of = (machine.kind or "unknown controller", machine.robotware, machine.system)
         severities = Counter(it.severity for it in self.findings).items()

@@ -77,7 +77,6 @@ class Change:
     """How far it differs [deg]."""
 
     def __str__(self) -> str:
-        """Write it as linters do."""
         parts = [
             f"{it} moved by {mm:.3f} mm, {angle_text(deg)}" for it, (mm, deg) in self.frames.items()
         ]
@@ -298,7 +297,6 @@ class TargetChange:
     """Its confdata now."""
 
     def __str__(self) -> str:
-        """Write it as linters do."""
         parts = []
         if self.kind == "confdata" and self.was is not None and self.now is not None:
             parts.append(f"was {[*self.was]}, is {[*self.now]}")

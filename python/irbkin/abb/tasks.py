@@ -45,8 +45,6 @@ class Task:
 
 @dataclass(frozen=True)
 class _Source:
-    """Where a task is known from."""
-
     name: str
     path: Path | None
     loaded: LoadedTask | None

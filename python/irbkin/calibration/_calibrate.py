@@ -145,7 +145,6 @@ class Calibration(NamedTuple):
         return corrections
 
     def __repr__(self) -> str:
-        """The outcome in a line."""
         before, after = self.residuals.aligned, self.residuals.after
         return (
             f"<Calibration of {self.robot.name or 'a robot'}: {len(self.parameters)} parameters "

@@ -43,8 +43,6 @@ def outlying(residuals: Floats) -> float:
 
 @dataclass(frozen=True)
 class Problem:
-    """A robot, measurements and their weights."""
-
     robot: Robot
     measurements: Measurements
     position_std: float

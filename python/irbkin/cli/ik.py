@@ -209,7 +209,6 @@ class _One(_All):
         )
 
     def reason(self, pose: Floats) -> str:
-        """Why a pose has no such solution."""
         try:
             self.joints(pose)
         except UnreachableError as error:

@@ -328,7 +328,6 @@ def _check_hull(hull: LinkHull, place: str) -> None:
 
 
 def _shape(data: dict[str, Any]) -> Shape:
-    """The shape of `Shape.data`."""
     own = {key: value for key, value in data.items() if key != "kind"}
     if data.get("kind") == "union":
         return Shape.union([_shape(part) for part in own["shapes"]])

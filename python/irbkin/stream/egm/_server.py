@@ -206,8 +206,6 @@ class Server:
 
 
 class _Protocol(asyncio.DatagramProtocol):
-    """Answers each datagram when it comes."""
-
     def __init__(self, server: Server, session: Session, failed: asyncio.Future[None]) -> None:
         self.server, self.session, self.failed = server, session, failed
 

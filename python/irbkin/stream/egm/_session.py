@@ -355,7 +355,6 @@ class Session:
         self._was_following = is_following
 
     def _check_posture(self, q: Floats, message: EgmRobot) -> None:
-        """Refuse a robot that is not where the guard is."""
         if apart := self._apart(q, TOLERANCE):
             raise StreamError(f"{apart}: start a Guard where the robot is")
         pose = message.feedback.cartesian if message.feedback else None

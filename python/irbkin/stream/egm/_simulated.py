@@ -135,7 +135,6 @@ class Controller:
         return self._message()
 
     def _message(self) -> bytes:
-        """Where the robot is, and what state it is in."""
         header = EgmHeader(self.seqno, int(self.ticks * self.cycle * 1e3) % WORD, MessageType.DATA)
         feedback, planned = map(self._position, (self.q, self._newest[0]))
         mci = MciState.RUNNING if self.state == "RUNNING" else MciState.STOPPED
@@ -279,7 +278,6 @@ def play(
 
 
 def _received(own: socket.socket, until: float) -> Iterator[bytes]:
-    """The datagrams that come until a time."""
     while True:
         own.settimeout(max(until - time.monotonic(), 0.0))
         try:
