@@ -224,7 +224,7 @@ def test_modules_that_sys_loads_are_found_in_home(tmp_path):
         ("HOME/Cell/B.sys", "configured"),
         ("HOME/MAINPROG.PRG", "configured"),
     ]
-    assert [(it.is_hidden, it.is_shared) for it in modules[1:3]] == [(True, False), (False, True)]
+    assert [it.is_hidden for it in modules[1:3]] == [True, False]
     assert codes(backup) == ["module-installed", "module-missing", "module-outside"]
 
 

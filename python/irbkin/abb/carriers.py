@@ -1,4 +1,4 @@
-"""Which units carry others, and which of them move work objects."""
+"""Which units carry others, and which MECHANICAL_UNIT stands for each."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -35,18 +35,14 @@ def related(moc: CfgFile, machine: Machine) -> Machine:
     for unit in machine.all_units():
         carried.setdefault((unit.carried_by or "").lower(), []).append(unit.name)
     mechanical: dict[str, str] = {}
-    moving: set[str] = set()
     for it in moc.of("MECHANICAL_UNIT"):
         used = [value.lower() for key, value in it.values.items() if key.startswith(USES)]
         if len(used) == 1:
             mechanical.setdefault(used[0], it.name)
-        if it.switch("allow_move_of_user_frame"):
-            moving.update(used)
     units = {
         name: replace(
             unit,
             carries=tuple(carried.get(name.lower(), ())),
-            moves_work_objects=name.lower() in moving,
             mechanical_unit=mechanical.get(name.lower(), ""),
         )
         for name, unit in machine.units.items()

@@ -152,7 +152,7 @@ class _Reader:
     ) -> ExternalUnit:
         base, _ = self.base(of)
         axes = tuple(map(self.axis, joints))
-        return ExternalUnit(of.name, type_name, kind, base, _carrier(of), (), axes, False, of.line)
+        return ExternalUnit(of.name, type_name, kind, base, _carrier(of), (), axes, of.line)
 
     def is_gantry(self, of: Instance) -> bool:
         type_name = of.text("use_robot_type")

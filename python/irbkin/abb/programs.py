@@ -27,8 +27,6 @@ class TaskModule:
     """"program" (PROGMOD), "system" (SYSMOD), or "configured": a file of HOME that SYS.cfg loads
     and that is in neither.
     """
-    is_shared: bool
-    """Whether SYS.cfg loads it for all tasks (-Shared)."""
     is_hidden: bool
     """Whether it is hidden on the controller."""
     source: str
@@ -56,7 +54,7 @@ def modules_in(
                 shown = folder.shown(file)
                 unlisted.append(Finding(shown, 0, "module-unlisted", "note", message))
             is_hidden, source = (entry.is_hidden, entry.source) if entry else (False, "")
-            module = TaskModule(file, folder.shown(file), kind, False, is_hidden, source)
+            module = TaskModule(file, folder.shown(file), kind, is_hidden, source)
             found.append((place, order.get(key, len(order)), key, module))
     missing = [
         _missing(loaded.name, entry, backinfo)
@@ -122,9 +120,8 @@ class Loads:
             path = self.path(it, name)
             if path is not None:
                 stems.add(stem)
-                shared, hidden = it.switch("Shared"), it.switch("Hidden")
-                shown = self.folder.shown(path)
-                found.append(TaskModule(path, shown, "configured", shared, hidden, name))
+                shown, is_hidden = self.folder.shown(path), it.switch("Hidden")
+                found.append(TaskModule(path, shown, "configured", is_hidden, name))
         return found
 
     def path(self, of: Instance, name: str) -> Path | None:

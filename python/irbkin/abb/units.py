@@ -106,8 +106,6 @@ class ExternalUnit:
     carries: tuple[str, ...]
     """Names of the units that it carries."""
     axes: tuple[ExternalAxis, ...]
-    moves_work_objects: bool
-    """Whether work objects may refer to it by `ufmec`."""
     line: int
     """Line of MOC.cfg."""
     mechanical_unit: str = ""
