@@ -154,20 +154,18 @@ class Calibration(NamedTuple):
 
     def __str__(self) -> str:
         """Residuals at each stage, then the parameters, in mm and mrad."""
+        row = "{:15}  {:>9} {:>9}  {:>9} {:>9}"
         lines = [
             f"{self.robot.name or 'robot'}: {len(self.parameters)} parameters from "
             f"{len(self.position_error)} measurements",
             f"{'':15}  {'position [mm]':^19}  {'rotation [mrad]':^19}".rstrip(),
-            f"{'':15}  {'rms':>9} {'worst':>9}  {'rms':>9} {'worst':>9}",
+            row.format("", "rms", "worst", "rms", "worst"),
         ]
         for name, residuals in zip(STAGES, self.residuals, strict=True):
-            if residuals is not None:
-                figures = [_length(figure) for figure in residuals]
-                lines.append(
-                    f"{name:15}  {figures[0]:>9} {figures[1]:>9}  {figures[2]:>9} {figures[3]:>9}"
-                )
-            else:
+            if residuals is None:
                 lines.append(f"{name}: none, no folds or too few measurements")
+            else:
+                lines.append(row.format(name, *map(_length, residuals)))
         lines.append(f"{'parameter':15}  {'correction':>12}  {'standard error':>14}")
         for each in self.parameters:
             unit = "mm" if each.unit == "m" else "mrad"

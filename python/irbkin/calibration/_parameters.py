@@ -56,28 +56,19 @@ def tiers(robot: Robot, fit: frozenset[str]) -> list[list[int]]:
     Parameters that are named come first, then base and tool, then the table: a joint offset that
     does what a turn of the tool does is left out, and not the turn.
     """
-    all_names = names(robot.dof)
-    named = [index for index, name in enumerate(all_names) if name in fit]
-    groups = [[it for it in tier if it not in named] for tier in _groups(robot, fit)]
-    return [named + groups[0], *groups[1:]]
-
-
-def _groups(robot: Robot, fit: frozenset[str]) -> list[list[int]]:
-    """As `tiers`, of base, table and tool."""
-    dof = robot.dof
-    frame, width = len(FRAME), len(ROW)
+    frame, width, dof = len(FRAME), len(ROW), robot.dof
     ends = list(range(frame)) if "base" in fit else []
     if "tool" in fit:
         ends += range(frame + width * dof, 2 * frame + width * dof)
-    if "table" not in fit:
-        return [ends]
     first, second = [], []
-    for row, alpha in enumerate(robot.mdh[:, 0]):
+    for row, alpha in enumerate(robot.mdh[:, 0] if "table" in fit else ()):
         alpha_, a, d, theta, beta = range(frame + width * row, frame + width * (row + 1))
         parallel = abs(np.sin(alpha)) <= PARALLEL_SIN
         first += [alpha_, a, theta, beta if parallel else d]
         second.append(d if parallel else beta)
-    return [ends, first, second]
+    named = [index for index, name in enumerate(names(dof)) if name in fit]
+    rest = [[it for it in tier if it not in named] for tier in (ends, first, second)]
+    return [named + rest[0], *rest[1:]]
 
 
 def chosen(jacobian: Floats, tiers: Sequence[Sequence[int]], least: float) -> list[int]:
