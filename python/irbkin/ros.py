@@ -352,35 +352,29 @@ class Parameter(NamedTuple):
     """A parameter of a node. An empty value stands for none."""
 
     name: str
-    kind: type[str] | type[float]
-    """str, or float for an array of numbers."""
-    is_array: bool
-    default: str
-    """Its default as text; "" for none."""
     description: str
     """Its meaning, with the unit."""
-
-
-def _text(name: str, default: str, description: str) -> Parameter:
-    return Parameter(name, str, False, default, description)
+    default: str = ""
+    """Its default as text; "" for none."""
+    kind: type[str] | type[float] = str
+    """str, or float for an array of numbers."""
+    is_array: bool = False
 
 
 def _numbers(name: str, description: str) -> Parameter:
-    return Parameter(name, float, True, "", description)
+    return Parameter(name, description, kind=float, is_array=True)
 
 
 PARAMETERS = (
-    _text("robot", "", "Catalog name of the robot, such as IRB 1600-6/1.45"),
-    _text("robot_description", "", "Text or path of a URDF, in place of robot"),
-    _text("tip_link", "", "Link of robot_description whose poses are given; its only tip if empty"),
-    _text("base_frame", "base_link", "Frame of poses; the base link of robot_description"),
+    Parameter("robot", "Catalog name of the robot, such as IRB 1600-6/1.45"),
+    Parameter("robot_description", "Text or path of a URDF, in place of robot"),
+    Parameter("tip_link", "Link of robot_description whose poses are given; its only tip if empty"),
+    Parameter("base_frame", "Frame of poses; the base link of robot_description", "base_link"),
     _numbers("tool", "Tool center point in the flange: x y z [m] and quaternion x y z w"),
     Parameter(
         "joint_names",
-        str,
-        True,
-        "",
         "Names of the joints; if empty as in robot_description, else joint_1 ..",
+        is_array=True,
     ),
     _numbers("start", "Joints to which the first target's solution is near [rad]; zeros if empty"),
     _numbers("weights", "Cost of moving each joint; ones if empty"),
@@ -391,8 +385,8 @@ PARAMETERS = (
         "Track under the robot: its direction x y z, lower and upper end [m], limits of "
         "velocity [m/s] and acceleration [m/s^2]; none if empty",
     ),
-    _text("track_name", "track", "Name of the track in planned trajectories"),
-    _text("service_prefix", "", "Of the names of services; irb1600_kinematics for an IRB 1600"),
+    Parameter("track_name", "Name of the track in planned trajectories", "track"),
+    Parameter("service_prefix", "Of the names of services; irb1600_kinematics for an IRB 1600"),
 )
 
 
