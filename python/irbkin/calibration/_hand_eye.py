@@ -108,7 +108,14 @@ def robot_world(
     x, y = frames(values)
     shift, turn = (np.linalg.norm(it, axis=1) for it in errors(values))
     measured = (y @ seen)[:, :3, 3]
-    _check_near(float(np.median(shift)), float(np.median(turn)), measured)
+    # Half are farther off than any measurement.
+    distance, angle = np.median(shift), np.median(turn)
+    bound = max(FAR_PART * np.linalg.norm(np.ptp(measured, axis=0)), FAR_LENGTH)
+    if distance > bound or angle > FAR_ANGLE:
+        raise CalibrationError(
+            f"a and b do not fit: half are {distance:.2g} m and {angle:.2g} rad off, at most "
+            f"{bound:.2g} m and {FAR_ANGLE} rad is taken (is one inverted, swapped or mirrored?)"
+        )
     return HandEye(x, y, shift, turn, measured, (hands @ x)[:, :3, 3])
 
 
@@ -138,14 +145,4 @@ def _check_turns(rotations: Floats, name: str) -> None:
         raise CalibrationError(
             f"the poses of {name} turn by {second:.2g} rad about a second axis, at least "
             f"{LEAST_TURN:g} rad is needed: turn the hand about two axes that are not parallel"
-        )
-
-
-def _check_near(distance: float, angle: float, positions: Floats) -> None:
-    """Refuse pairs of which half are farther off than any measurement."""
-    bound = max(FAR_PART * float(np.linalg.norm(np.ptp(positions, axis=0))), FAR_LENGTH)
-    if distance > bound or angle > FAR_ANGLE:
-        raise CalibrationError(
-            f"a and b do not fit: half are {distance:.2g} m and {angle:.2g} rad off, at most "
-            f"{bound:.2g} m and {FAR_ANGLE} rad is taken (is one inverted, swapped or mirrored?)"
         )
