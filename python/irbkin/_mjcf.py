@@ -1,0 +1,74 @@
+"""Arms of MuJoCo's MJCF, of which only the kinematics is read: `pip install 'irbkin[mjcf]'`."""
+
+import os
+import re
+from typing import Any
+
+from irbkin import _bounded
+from irbkin._arguments import check_extra
+from irbkin._core import Robot
+from irbkin._files import read
+from irbkin._words import visible
+from irbkin.errors import InvalidModelError, IrbkinError
+
+UNREAD = "keys tuples sensors actuators skins meshes hfields textures materials".split()
+"""What places no body and may need files that are not there; what refers to others comes first."""
+
+
+def robot_of(
+    path: str | os.PathLike[str], base: str | None = None, tip: str | None = None, name: str = ""
+) -> Robot:
+    """Read the arm from a body to a body or site of a file, or of a text that begins with "<".
+
+    `fk` is MuJoCo's, in the frame of `base`: when not given, the body below the world that carries
+    the arm. `tip` is chosen as by `Robot.from_urdf`. The file may include others; meshes and
+    textures are not read.
+
+    Raises:
+        InvalidModelError: MuJoCo refuses it, no arm or several could be meant, or a joint slides,
+            is a ball or is coupled to another one.
+        OSError: The file cannot be read.
+    """
+    check_extra("Robot.from_mjcf", "mjcf", "mujoco")
+    where = text = os.fspath(path)
+    if is_text := text.lstrip().startswith("<"):
+        where = "the text"
+    content = text if is_text else read(text).decode("utf-8", "replace")
+    try:
+        if re.match(r"[^<]*(<[?!][^<]*)*<robot\b", content):
+            raise InvalidModelError("is a URDF: Robot.from_urdf reads it")
+        root, urdf, couplings = _bounded.call("mujoco", "irbkin._mjcf.tree", text, is_text, base, tip)
+        robot = Robot.from_urdf(urdf, base or root, tip, name, snap=0)
+        for what, joints in couplings:
+            if not set(joints).isdisjoint(robot.joint_names):
+                acts = f"{what} acts on {' and '.join(joints)}"
+                raise InvalidModelError(f"{acts}: joints of an arm must move by themselves")
+    except IrbkinError as error:
+        raise InvalidModelError(f"{where}: {visible(str(error).removeprefix("URDF: "))}") from None
+    return robot
+
+
+def tree(text: str, is_text: bool, base: str | None, tip: str | None) -> Any:
+    """The default base, a URDF of bodies and sites, and what couples which joints."""
+    import mujoco
+
+    from irbkin._mjcf_tree import Tree
+
+    # A warning would be written to a file in the working folder.
+    mujoco.set_mju_user_warning(lambda words: None)
+    spec = (mujoco.MjSpec.from_string if is_text else mujoco.MjSpec.from_file)(text)
+    for kind in UNREAD:
+        for element in list(getattr(spec, kind)):
+            spec.delete(element)
+    for shape in [*spec.geoms, *spec.sites]:
+        shape.material = ""
+    for geom in spec.geoms:
+        if geom.meshname or geom.hfieldname:
+            geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [1.0, 1.0, 1.0]
+            geom.meshname = geom.hfieldname = ""
+    # Links without shapes have no mass.
+    spec.compiler.boundmass = spec.compiler.boundinertia = 1.0
+    spec.compiler.balanceinertia, spec.compiler.fusestatic = True, False
+    own = Tree(spec.compile())
+    root = own.root(base, tip)
+    return own.bodies[root], own.urdf(root, spec.modelname), own.couplings()
