@@ -1,5 +1,5 @@
-"""Other libraries' readers in a process of their own, with bounds of time and memory: a hostile or
-broken file may make them run on, fill the memory, or crash.
+"""Other libraries' readers in a process of their own, bounded in time and memory: what a hostile or
+broken file makes them do ends there.
 """
 
 import json
@@ -7,39 +7,60 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-from irbkin.errors import InvalidModelError
+from irbkin._files import read
+from irbkin._words import visible
+from irbkin.errors import InvalidModelError, IrbkinError
 
 MOST_SECONDS = 1.0
-"""CPU time of a reader: the slowest public file needs 0.3 s."""
+"""CPU time of a reader: of 170 public files the slowest needs 0.3 s."""
 MOST_MEMORY = 150 * 2**20
-"""Bytes of a reader, beyond its library's own; bounded where there is /proc, as in Linux."""
+"""Bytes of a reader beside its library; bounded where there is a /proc, as on Linux."""
 MOST_WAIT = 60.0
-"""Wall time [s]: of a loaded machine, and the bound of systems without timers (Windows)."""
+"""Wall time [s], for systems without a timer of CPU time (Windows)."""
+
+
+@contextmanager
+def source(path: str | os.PathLike[str]) -> Iterator[tuple[str, str | None]]:
+    """The text of a file and its absolute path; a text that begins with "<" is given as it is. An
+    error names the file.
+    """
+    text, file, where = os.fspath(path), None, "the text"
+    if not text.lstrip().startswith("<"):
+        file, where = os.path.abspath(text), text
+        text = read(text).decode("utf-8-sig", "replace")
+    try:
+        yield text, file
+    except IrbkinError as error:
+        words = visible(str(error)).removeprefix("URDF: ")
+        raise InvalidModelError(words if words.startswith(where) else f"{where}: {words}") from None
 
 
 def call(package: str, function: str, *arguments: Any) -> Any:
-    """Call a function of a module of irbkin that uses a package; all must be of JSON.
+    """Call a function by its module and name, when a package that it needs has been imported.
+
+    Arguments and result are of JSON.
 
     Raises:
-        InvalidModelError: It failed, or exceeded a bound.
+        InvalidModelError: It failed or exceeded a bound.
     """
-    # The path first: "-c" puts the working folder there, which may be a stranger's.
+    # -c puts the working folder into the path, which may be that of a stranger's file.
     code = f"import sys; sys.path[:] = {sys.path!r}; import irbkin._bounded as it; it.answer()"
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     try:
         run = subprocess.run(
             [sys.executable, "-X", "utf8", "-c", code],
             input=json.dumps([package, function, arguments]).encode(),
             capture_output=True,
             timeout=MOST_WAIT,
-            env=environment,
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
         )
     except subprocess.TimeoutExpired:
         raise InvalidModelError(f"takes more than {MOST_WAIT:g} s to read") from None
-    if run.returncode == -getattr(signal, "SIGPROF", 0) != 0:
+    if run.returncode and run.returncode == -getattr(signal, "SIGPROF", 0):
         raise InvalidModelError(f"takes more than {MOST_SECONDS:g} s to read")
     if run.returncode or not run.stdout:
         last = run.stderr.decode(errors="replace").strip().rpartition("\n")[2]
@@ -51,8 +72,8 @@ def call(package: str, function: str, *arguments: Any) -> Any:
 
 
 def answer() -> None:
-    """Call what stdin names, and write result and error to stdout."""
-    # What the library prints is no answer.
+    """Call the function that stdin names; write its result or its error to stdout."""
+    # What a library prints is not the answer.
     stdout = os.dup(1)
     os.dup2(2, 1)
     package, function, arguments = json.load(sys.stdin)
@@ -69,13 +90,13 @@ def answer() -> None:
         fault = f"needs more than {MOST_MEMORY >> 20} MB to read"
     # A library raises whatever a broken file makes it raise.
     except Exception as error:
-        fault = " ".join(str(error).split()) or type(error).__name__
+        fault = "; ".join(str(error).split("\n")).strip("; ") or type(error).__name__
     with open(stdout, "w") as file:
         json.dump([result, fault], file)
 
 
 def _bound() -> None:
-    """Bound this process from here on."""
+    """Bound what this process needs from here on."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_PROF, MOST_SECONDS)
     if os.path.exists("/proc/self/statm"):

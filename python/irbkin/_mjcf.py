@@ -7,11 +7,9 @@ from typing import Any
 from irbkin import _bounded
 from irbkin._arguments import check_extra
 from irbkin._core import Robot
-from irbkin._files import read
-from irbkin._words import visible
-from irbkin.errors import InvalidModelError, IrbkinError
+from irbkin.errors import InvalidModelError
 
-UNREAD = "keys tuples sensors actuators skins meshes hfields textures materials".split()
+UNREAD = ("tuples", "sensors", "skins", "meshes", "hfields", "textures", "materials")
 """What places no body and may need files that are not there; what refers to others comes first."""
 
 
@@ -30,25 +28,20 @@ def robot_of(
         OSError: The file cannot be read.
     """
     check_extra("Robot.from_mjcf", "mjcf", "mujoco")
-    where = text = os.fspath(path)
-    if is_text := text.lstrip().startswith("<"):
-        where = "the text"
-    content = text if is_text else read(text).decode("utf-8", "replace")
-    try:
-        if re.match(r"[^<]*(<[?!][^<]*)*<robot\b", content):
+    with _bounded.source(path) as (text, file):
+        if re.match(r"[^<]*(<[?!][^<]*)*<robot\b", text):
             raise InvalidModelError("is a URDF: Robot.from_urdf reads it")
-        root, urdf, couplings = _bounded.call("mujoco", "irbkin._mjcf.tree", text, is_text, base, tip)
+        answer = _bounded.call("mujoco", "irbkin._mjcf.tree", text, file, base, tip)
+        root, urdf, couplings = answer
         robot = Robot.from_urdf(urdf, base or root, tip, name, snap=0)
         for what, joints in couplings:
             if not set(joints).isdisjoint(robot.joint_names):
                 acts = f"{what} acts on {' and '.join(joints)}"
                 raise InvalidModelError(f"{acts}: joints of an arm must move by themselves")
-    except IrbkinError as error:
-        raise InvalidModelError(f"{where}: {visible(str(error).removeprefix("URDF: "))}") from None
-    return robot
+        return robot
 
 
-def tree(text: str, is_text: bool, base: str | None, tip: str | None) -> Any:
+def tree(text: str, file: str | None, base: str | None, tip: str | None) -> Any:
     """The default base, a URDF of bodies and sites, and what couples which joints."""
     import mujoco
 
@@ -56,7 +49,7 @@ def tree(text: str, is_text: bool, base: str | None, tip: str | None) -> Any:
 
     # A warning would be written to a file in the working folder.
     mujoco.set_mju_user_warning(lambda words: None)
-    spec = (mujoco.MjSpec.from_string if is_text else mujoco.MjSpec.from_file)(text)
+    spec = mujoco.MjSpec.from_file(file) if file else mujoco.MjSpec.from_string(text)
     for kind in UNREAD:
         for element in list(getattr(spec, kind)):
             spec.delete(element)

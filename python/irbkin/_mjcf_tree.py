@@ -39,7 +39,8 @@ class Tree:
         for body in range(1, len(self.bodies)):
             above = turns[self.model.body_parentid[body]]
             turns[body] = above + self.kinds[body].count("revolute")
-        ends = [body for body, count in enumerate(turns) if count >= LEAST_JOINTS]
+        most = min(LEAST_JOINTS, max(turns))
+        ends = [body for body, count in enumerate(turns) if count >= most]
         if tip in self.bodies:
             ends = [self.bodies.index(tip)]
         elif tip in self.sites:
@@ -51,7 +52,8 @@ class Tree:
     def urdf(self, root: int, name: str) -> str:
         """The text of what hangs on a body; what floats is no part of an arm."""
         model, links = self.model, {root: self.bodies[root]}
-        parts = [f'<robot version="1.1" name={quoteattr(name)}><link name={quoteattr(links[root])}/>']
+        parts = [f'<robot version="1.1" name={quoteattr(name)}>']
+        parts.append(f"<link name={quoteattr(links[root])}/>")
         for body in range(root + 1, model.nbody):
             parent = links.get(int(model.body_parentid[body]))
             if parent is not None and "floating" not in self.kinds[body]:
@@ -82,7 +84,9 @@ class Tree:
             limits = model.jnt_range[joint]
             parts.append(_joint(kind, name, parent, child, xyz, quat, axis, limits))
             parent, xyz, quat = child, -point, np.array([1.0, 0.0, 0.0, 0.0])
-        return parts if parent == own else [*parts, _joint("fixed", f"to {own}", parent, own, xyz, quat)]
+        if parent != own:
+            parts.append(_joint("fixed", f"to {own}", parent, own, xyz, quat))
+        return parts
 
     def couplings(self) -> list[tuple[str, list[str]]]:
         """Equalities and tendons, each with the joints that it makes depend on each other."""
@@ -103,14 +107,13 @@ class Tree:
         return found
 
 
-def _joint(
-    kind: str, name: str, parent: str, child: str, xyz: Any, quat: Any, axis: Any = (), limits: Any = ()
-) -> str:
-    """A link and the joint above it."""
-    words = [" ".join(repr(float(it)) for it in row) for row in (xyz, [*quat[1:], quat[0]], axis)]
-    turning = f'<axis xyz="{words[2]}"/>' if len(axis) else ""
+def _joint(kind: str, name: str, parent: str, child: str, *rows: Any) -> str:
+    """A link and the joint above it, of position, quaternion, axis and limits."""
+    words = [" ".join(repr(float(it)) for it in row) for row in rows]
+    words[1] = " ".join([*words[1].split()[1:], words[1].split()[0]])
+    turning = f'<axis xyz="{words[2]}"/>' if len(rows) > 2 else ""
     if kind in ("revolute", "prismatic"):
-        low, high = (repr(float(it)) for it in limits)
+        low, high = words[3].split()
         turning += f'<limit lower="{low}" upper="{high}" effort="0" velocity="0"/>'
     return (
         f'<link name={quoteattr(child)}/><joint name={quoteattr(name)} type="{kind}">'

@@ -8,108 +8,101 @@ from typing import Any
 
 from irbkin import _bounded
 from irbkin._arguments import check_extra
-from irbkin._files import read
-from irbkin._words import visible
+from irbkin._words import listed
 from irbkin.errors import InvalidModelError
 
-MOST_NESTED = 3
-"""How often a file may be among those that include each other: once, and behind its guards."""
+MOST_OPEN = 3
+"""How often a file may be open: once, and again where a condition ends its including itself."""
 
 
 def expanded(
     path: str | os.PathLike[str],
-    args: Mapping[str, object] | None = None,
+    args: Mapping[str, str] | None = None,
     packages: Mapping[str, str | os.PathLike[str]] | None = None,
 ) -> str:
-    """Expand a xacro file, or a text that begins with "<", to the text of a URDF.
+    """Expand a xacro file, or a text that begins with "<", to a URDF.
 
-    A xacro file is a program: its properties and conditions are Python expressions. xacro only
-    forbids them names that begin with "__", which a lambda gets around, and `$(eval ..)` has the
-    builtins: they can do all that this user can, such as to read any file and the environment. So
-    expand only files that you would run. Their time and memory are bounded.
+    A xacro file is a program; expand only those that you would run. Its Python expressions are not
+    sandboxed: xacro forbids names that begin with "__", but not in a lambda, and `$(eval ..)` has
+    all builtins. Time and memory are bounded.
 
     Args:
-        path: The file or text; in a text, includes are relative to the working folder.
+        path: The file, or a text, whose includes are relative to the working folder.
         args: Values of its `<xacro:arg>`.
-        packages: Folders of ROS packages; those not given are looked for above the file, beside it
-            and each folder above it, and where ROS has them.
+        packages: Folders of ROS packages. Others are looked for above the file, where ROS has
+            them, and by name in each folder above the file.
 
     Raises:
         InvalidModelError: It cannot be expanded; the message says what is missing.
         OSError: The file cannot be read.
     """
     check_extra("a xacro file", "xacro", "xacrodoc")
-    text = os.fspath(path)
-    is_text = text.lstrip().startswith("<")
-    content = text if is_text else read(text).decode("utf-8-sig", "replace")
-    words = {it: str(own).lower() if own in (True, False) else str(own) for it, own in (args or {}).items()}
-    folders = {it: os.path.abspath(own) for it, own in (packages or {}).items()}
-    file = None if is_text else os.path.abspath(text)
-    try:
-        result: str = _bounded.call(
-            "xacrodoc", "irbkin._xacro.expand", content, file, words, folders
-        )
-    except InvalidModelError as error:
-        where = "the text" if is_text else text
-        raise InvalidModelError(f"{where}: {visible(str(error))}") from None
-    return result
+    values = {name: str(own) for name, own in (args or {}).items()}
+    folders = {name: os.path.abspath(own) for name, own in (packages or {}).items()}
+    with _bounded.source(path) as (text, file):
+        return str(_bounded.call("xacrodoc", "irbkin._xacro.expand", text, file, values, folders))
 
 
 def expand(text: str, file: str | None, args: dict[str, str], folders: dict[str, str]) -> str:
-    """Expand a text in this process."""
+    """Expand a text in this process, and change xacro for it."""
     import xacro
     from xacrodoc import XacroDoc, packages
 
+    above = [] if file is None else Path(file).resolve().parents
+    known, parse = packages.get_path, xacro.parse
+
+    def find(name: str) -> str:
+        beside = (str(folder / name) for folder in above if (folder / name).is_dir())
+        try:
+            return str(known(name))
+        except packages.PackageNotFoundError:
+            if found := next(beside, None):
+                return found
+            raise
+
+    def open_file(text: Any, name: str | None = None) -> Any:
+        opened = [os.path.realpath(it) for it in xacro.filestack if it]
+        if name and opened.count(os.path.realpath(name)) > MOST_OPEN:
+            raise InvalidModelError(f"{name!r} includes itself")
+        return parse(text, name)
+
+    packages.get_path, xacro.parse = find, open_file
+    packages.update_package_cache(folders)
     if file is not None:
         packages.walk_up_from(file)
-    packages.update_package_cache(folders)
-    find, parse = packages.get_path, xacro.parse
-
-    def find_beside(name: str) -> str:
-        above = [] if file is None else Path(file).parents
-        beside = next((it / name for it in above if (it / name).is_dir()), None)
-        try:
-            return str(find(name))
-        except packages.PackageNotFoundError:
-            if beside is None:
-                raise
-            return str(beside)
-
-    def parse_once(text: Any, path: str | None = None) -> Any:
-        if path and [*map(os.path.realpath, xacro.filestack)].count(os.path.realpath(path)) > MOST_NESTED:
-            raise InvalidModelError(f"{path} includes itself")
-        return parse(text, path)
-
-    packages.get_path, xacro.parse = find_beside, parse_once
     xacro.init_stacks(file)
     try:
         return str(XacroDoc.from_string(text, args, resolve_packages=False).dom.toxml())
-    except (RecursionError, MemoryError):
-        raise
     except Exception as error:
-        raise InvalidModelError(_reason(error, [file, *xacro.all_includes])) from None
+        raise _fault(error) from None
 
 
-def _reason(error: Any, files: list[str | None]) -> str:
+def _fault(error: Any) -> Exception:
     """What is wrong, by the first cause of an error."""
+    import xacro
     from xacro.substitution_args import ArgException
     from xacrodoc.packages import PackageNotFoundError
-    cause = error
-    while getattr(cause, "exc", None) is not None:
+
+    words, cause, files = str(error), error, [it for it in xacro.filestack if it]
+    while getattr(cause, "exc", None):
         cause = cause.exc
+    if isinstance(cause, RecursionError | MemoryError):
+        return cause
+    name = cause.args[0] if cause.args else ""
     if isinstance(cause, PackageNotFoundError):
-        name = cause.args[0]
-        return f"the package {name!r} is not found: pass packages={{{name!r}: its folder}}"
-    if isinstance(cause, ArgException):
-        name = cause.args[0]
-        return f"the argument {name!r} has no value: pass args={{{name!r}: its value}}"
-    if isinstance(cause, FileNotFoundError):
-        return f"needs {cause.filename!r}, which is not there"
-    found = re.search(r"when evaluating expression '(.*?)'\s", f"{error} ", re.DOTALL)
-    if found is None:
-        return str(error)
-    for file in filter(None, files):
-        lines = Path(file).read_text("utf-8", "replace").split("${" + found[1] + "}")
-        if len(lines) > 1:
-            return f"{file}, line {lines[0].count(chr(10)) + 1}: ${{{found[1]}}} is wrong: {cause}"
-    return f"${{{found[1]}}} is wrong: {cause}"
+        words = f"the package {name!r} is not found: pass packages={{{name!r}: folder}}"
+    elif isinstance(cause, ArgException):
+        words = f"the argument {name!r} has no value: pass args={{{name!r}: value}}"
+    elif isinstance(cause, OSError):
+        names = listed(xacro.substitution_args_context["arg"]) or "none"
+        words = f"{cause.filename!r}: {cause.strerror} (arguments of the file: {names})"
+    elif found := re.search(r"when evaluating expression '(.*?)'(?=\s|$)", words, re.DOTALL):
+        words = f"${{{found[1]}}}: {cause}"
+        for file in (*files, *xacro.all_includes):
+            before, at, _ = Path(file).read_text("utf-8", "replace").partition(f"${{{found[1]}}}")
+            if at:
+                return InvalidModelError(f"{file}, line {before.count(chr(10)) + 1}: {words}")
+    words += "".join(
+        f" (macro {it.body.getAttribute('name')!r})" for it in getattr(error, "macros", [])[:1]
+    )
+    return InvalidModelError(f"{files[-1]}: {words}" if len(files) > 1 else words)
