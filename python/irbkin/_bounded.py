@@ -48,6 +48,8 @@ def call(package: str, function: str, *arguments: Any) -> Any:
     Raises:
         InvalidModelError: It failed or exceeded a bound.
     """
+    if getattr(sys, "frozen", False) or not sys.executable:
+        raise InvalidModelError(f"{package} runs in a Python of its own, and there is none")
     # -c puts the working folder into the path, which may be that of a stranger's file.
     code = f"import sys; sys.path[:] = {sys.path!r}; import irbkin._bounded as it; it.answer()"
     try:

@@ -14,13 +14,17 @@ UNREAD = ("tuples", "sensors", "skins", "meshes", "hfields", "textures", "materi
 
 
 def robot_of(
-    path: str | os.PathLike[str], base: str | None = None, tip: str | None = None, name: str = ""
+    path: str | os.PathLike[str],
+    base: str | None = None,
+    tip: str | None = None,
+    name: str = "",
+    snap: float = 0.0,
 ) -> Robot:
     """Read the arm from a body to a body or site of a file, or of a text that begins with "<".
 
     `fk` is MuJoCo's, in the frame of `base`: when not given, the body below the world that carries
-    the arm. `tip` is chosen as by `Robot.from_urdf`. The file may include others; meshes and
-    textures are not read.
+    the arm. `tip` is chosen, and `snap` acts, as by `Robot.from_urdf`. The file may include others;
+    meshes and textures are not read.
 
     Raises:
         InvalidModelError: MuJoCo refuses it, no arm or several could be meant, or a joint slides,
@@ -33,7 +37,7 @@ def robot_of(
             raise InvalidModelError("is a URDF: Robot.from_urdf reads it")
         answer = _bounded.call("mujoco", "irbkin._mjcf.tree", text, file, base, tip)
         root, urdf, couplings = answer
-        robot = Robot.from_urdf(urdf, base or root, tip, name, snap=0)
+        robot = Robot.from_urdf(urdf, base or root, tip, name, snap=snap)
         for what, joints in couplings:
             if not set(joints).isdisjoint(robot.joint_names):
                 acts = f"{what} acts on {' and '.join(joints)}"
