@@ -435,7 +435,7 @@ fn invalid_urdf_is_reported_with_its_line() {
         (
             "<mujoco/>",
             "the first element is <mujoco>, it must be <robot>: convert the file to URDF \
-             (mjcf-urdf-simple-converter on PyPI does)",
+             (in Python Robot.from_mjcf reads it)",
         ),
         ("<a/>", "the first element is <a>, it must be <robot>: convert the file to URDF"),
         ("<robot name='a'/>", "the robot has no links"),
@@ -445,12 +445,12 @@ fn invalid_urdf_is_reported_with_its_line() {
             "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n\n<link name='a'><xacro:box/>\
              </link></robot>",
             "line 3 is xacro, <xacro:box>: it must be expanded first (xacro arm.urdf.xacro > \
-             arm.urdf)",
+             arm.urdf; in Python Robot.from_urdf takes a .xacro file)",
         ),
         (
             "<robot>\n<xacro:arm/></robot>",
             "line 2 is xacro, <xacro:...>: it must be expanded first (xacro arm.urdf.xacro > \
-             arm.urdf)",
+             arm.urdf; in Python Robot.from_urdf takes a .xacro file)",
         ),
     ] {
         assert_eq!(words(text), format!("URDF: {reason}"));

@@ -540,6 +540,17 @@ class Robot:
         name: str = "",
         *,
         snap: float | None = None,
+        args: Mapping[str, str] | None = None,
+        packages: Mapping[str, str | PathLike[str]] | None = None,
+    ) -> Robot: ...
+    @staticmethod
+    def from_mjcf(
+        path: str | PathLike[str],
+        base: str | None = None,
+        tip: str | None = None,
+        name: str = "",
+        *,
+        snap: float = 0.0,
     ) -> Robot: ...
     @staticmethod
     def from_robotstudio(

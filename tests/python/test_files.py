@@ -34,6 +34,7 @@ def by_command(*arguments):
     return write
 
 
+EXAMPLE = PACKAGE.parents[1] / "examples" / "pick_and_place.mod"
 WRITERS = {
     "scene.json": lambda path: scene.of(ROBOT).save(path),
     "move.csv": MOVE.to_csv,
@@ -44,7 +45,7 @@ WRITERS = {
     "arms.csv": by_command("catalog"),
     "poses.csv": by_command("fk", NAME, 10, 20, 10, 0, 30, 0),
     "moves.csv": by_command("rapid", NAME, "-"),
-    "study.csv": by_command("arms", "-", "--arm", NAME),
+    "study.csv": by_command("arms", EXAMPLE, "--arm", NAME),
     "picture.svg": by_command("plot", NAME),
     "arm.urdf": by_command("urdf", NAME),
     "arm.json": by_command("view", NAME),
@@ -150,8 +151,9 @@ def test_only_one_module_of_the_package_writes_files():
         for file in PACKAGE.rglob("*.py")
         if any(map(opened_to_write, calls(file)))
     }
-    # An archive is unpacked into a temporary folder; the server of editors takes stdout.
-    assert found == {"_files.py", "abb/folders.py", "lsp/__init__.py"}
+    # An archive is unpacked into a temporary folder; the server of editors and a reader in its own
+    # process take stdout.
+    assert found == {"_bounded.py", "_files.py", "abb/folders.py", "lsp/__init__.py"}
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 //! `irbkin.Robot` from tables, parameters, limits and URDF, and its URDF.
 
+use std::path::Path;
+
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
@@ -133,8 +135,8 @@ impl PyRobot {
     ///
     /// Args:
     ///     text_or_path: The text, str that begins with "<" or bytes, or the path of a file, of
-    ///         URDF 1.0 to 1.2. Xacro must be expanded first. Of a text that others send give
-    ///         bytes, which name no file.
+    ///         URDF 1.0 to 1.2, or of a .xacro file, which the extra `xacro` expands: such a file
+    ///         is a program. Of a text that others send give bytes, which name no file.
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
     ///         or seven joints, if the last of these can be no gripper's.
@@ -142,6 +144,8 @@ impl PyRobot {
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
     ///         exact [rad], at most 1e-3; 0 keeps all. By default right angles rounded to four or
     ///         more decimals are, unless that may move the tool by more than 1e-4 m; see `repr`.
+    ///     args: Values of the arguments of a xacro file, by their names.
+    ///     packages: Folders of the ROS packages that a xacro file names.
     ///
     /// Raises:
     ///     InvalidModelError: The text is not a URDF, several links could be meant, there are not
@@ -150,18 +154,60 @@ impl PyRobot {
     ///         the message names what is wrong, and the base and tip that could be passed.
     ///     OSError: The file cannot be read.
     #[staticmethod]
-    #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=None))]
+    #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=None, args=None,
+        packages=None))]
     fn from_urdf(
         text_or_path: &Bound<'_, PyAny>,
         base: Option<&str>,
         tip: Option<&str>,
         name: &str,
         snap: Option<f64>,
+        args: Option<&Bound<'_, PyAny>>,
+        packages: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let bytes = bytes_of(text_or_path)?;
+        let name_or_text = text_or_path.str()?;
+        let name_or_text = name_or_text.to_string_lossy();
+        let extension = Path::new(&*name_or_text).extension();
+        let is_xacro = args.is_some()
+            || packages.is_some()
+            || extension.is_some_and(|it| it.eq_ignore_ascii_case("xacro"));
+        let bytes = if is_xacro {
+            let module = text_or_path.py().import("irbkin._xacro")?;
+            let text = module.call_method1("expanded", (text_or_path, args, packages))?;
+            text.extract::<String>()?.into_bytes()
+        } else {
+            bytes_of(text_or_path)?
+        };
         let read = || UrdfArm::read(text_of(&bytes)?, base, tip, &[6, 7])?.any_arm(snap);
         let arm = SharedArm::from(text_or_path.py().detach(read).map_err(exception)?);
         Ok(if name.is_empty() { arm } else { named(&arm, name)? }.into())
+    }
+
+    /// Robot from a MuJoCo model, MJCF: the hinge joints between two bodies, with their ranges.
+    ///
+    /// The extra `mjcf` reads it. Meshes need not be there. See docs/guide/urdf.md.
+    ///
+    /// Args:
+    ///     path: A file, or a text that begins with "<".
+    ///     base: Body in whose frame poses are given.
+    ///     tip: Site or body that poses are of; when not given, as of `from_urdf`.
+    ///     name: A name of your own; the model's when not given.
+    ///     snap: As of `from_urdf`; 0 keeps all angles.
+    ///
+    /// Raises:
+    ///     InvalidModelError: As `from_urdf`; MuJoCo cannot read the file.
+    ///     OSError: The file cannot be read.
+    #[staticmethod]
+    #[pyo3(signature = (path, base=None, tip=None, name="", *, snap=0.0))]
+    fn from_mjcf(
+        path: &Bound<'_, PyAny>,
+        base: Option<&str>,
+        tip: Option<&str>,
+        name: &str,
+        snap: f64,
+    ) -> PyResult<Py<Self>> {
+        let module = path.py().import("irbkin._mjcf")?;
+        Ok(module.call_method1("robot_of", (path, base, tip, name, snap))?.extract()?)
     }
 
     /// Robot from a file of ABB's RobotStudio: its table, base frame, flange and limits.

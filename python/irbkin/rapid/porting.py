@@ -28,6 +28,10 @@ CONFDATA = re.compile(
 """A robtarget with its confdata, and a datum that is one."""
 
 
+MOST_SHOWN = 40
+"""Letters of an instruction in a message, as in those of a check."""
+
+
 class LeftMove(NamedTuple):
     """A move that the new arm cannot make as it is."""
 
@@ -147,7 +151,9 @@ def _left(program: Program, checked: Checked) -> Iterator[LeftMove]:
             if code == move.unchecked or (code[0] in "RC" and code not in ("C203", "C204"))
         ]
         if not reasons and move.q is not None and move.confdata is None:
-            reasons = [f"MoveAbsJ {move.target}: joint angles of the arm before, teach them again"]
+            words = f"MoveAbsJ {move.target}"
+            words = words[:MOST_SHOWN] + "..." if len(words) > MOST_SHOWN else words
+            reasons = [f"{words}: joint angles of the arm before, teach them again"]
         if not reasons and move.unchecked is not None:
             reasons = [f"{move.target}: is not checked"]
         for words in reasons[:1]:

@@ -6,7 +6,7 @@ import sys
 import mujoco
 import numpy as np
 import pytest
-from irbkin._mjcf import robot_of
+from irbkin import Robot
 from irbkin.errors import InvalidModelError
 
 # Degrees, classes, a frame, two joints in one body, joints beside their body's origin, references,
@@ -65,7 +65,7 @@ def poses(own, robot, base, tip, q):
 
 def fault(text, *arguments):
     with pytest.raises(InvalidModelError) as caught:
-        robot_of(text, *arguments)
+        Robot.from_mjcf(text, *arguments)
     words = str(caught.value)
     assert "\n" not in words
     return words
@@ -81,7 +81,7 @@ def fault(text, *arguments):
     ],
 )
 def test_fk_is_mujocos(base, tip, root, end):
-    robot = robot_of(model(), base, tip)
+    robot = Robot.from_mjcf(model(), base, tip)
     q = np.random.default_rng(1).uniform(-4, 4, (200, 6))
     own = oracle(model())
     np.testing.assert_allclose(robot.fk(q), poses(own, robot, root, end, q), rtol=0, atol=1e-12)
@@ -98,8 +98,8 @@ def test_a_file_includes_others_of_its_folder_and_has_a_name_of_the_users(tmp_pa
     scene = tmp_path / "scene" / "scene.xml"
     scene.write_text('<mujoco model="scene"><include file="arm.xml"/></mujoco>')
     monkeypatch.chdir(tmp_path)
-    robot = robot_of("scene/scene.xml", name="mine")
-    np.testing.assert_array_equal(robot.fk(np.ones(6)), robot_of(model()).fk(np.ones(6)))
+    robot = Robot.from_mjcf("scene/scene.xml", name="mine")
+    np.testing.assert_array_equal(robot.fk(np.ones(6)), Robot.from_mjcf(model()).fk(np.ones(6)))
     assert robot.name == "mine"
     scene.write_text('<mujoco><include file="gone.xml"/></mujoco>')
     words = fault("scene/scene.xml")
@@ -110,18 +110,18 @@ def test_a_file_includes_others_of_its_folder_and_has_a_name_of_the_users(tmp_pa
 
 
 def test_of_several_tips_each_is_named_with_its_joints():
-    text = model(SITE + '<site name="camera" pos="0.1 0 0"/>')
+    text = model(SITE + '<site name="camera" pos="0.1 0 0"/>').replace('"tcp"', '"probe"')
     words = fault(text)
-    assert '"tcp" (6)' in words
+    assert '"probe" (6)' in words
     assert '"camera" (6)' in words
-    assert robot_of(text, tip="camera").fk(np.zeros(6))[:3, 3].shape == (3,)
-    assert '"tcp"' in fault(text, None, "tpc")
+    assert Robot.from_mjcf(text, tip="camera").fk(np.zeros(6))[:3, 3].shape == (3,)
+    assert '"probe"' in fault(text, None, "prbe")
     assert "base" in fault(text, "stnd")
 
 
 def test_a_site_with_the_name_of_a_body_has_another():
     text = model(SITE.replace("tcp", "b6"))
-    at = [robot_of(text, tip=tip).fk(np.zeros(6))[:3, 3] for tip in ("b6", "b6 (site)")]
+    at = [Robot.from_mjcf(text, tip=tip).fk(np.zeros(6))[:3, 3] for tip in ("b6", "b6 (site)")]
     assert np.linalg.norm(at[0] - at[1]) == pytest.approx(0.15)
 
 
@@ -131,7 +131,7 @@ def test_of_two_arms_the_tip_chooses_the_base():
     stand = r'<body name="stand".*</body>'
     text = re.sub(stand, "".join(pair), model(), flags=re.S)
     assert '"right_b6" (6)' in fault(text)
-    robot = robot_of(text, tip="right_b6")
+    robot = Robot.from_mjcf(text, tip="right_b6")
     q = np.random.default_rng(2).uniform(-2, 2, (20, 6))
     want = poses(oracle(text), robot, "right_post", "right_b6", q)
     np.testing.assert_allclose(robot.fk(q), want, rtol=0, atol=1e-12)
@@ -144,7 +144,7 @@ def test_a_gripper_is_not_the_arms():
         for side in ("left", "right")
     )
     mirror = '<equality><joint joint1="left_finger" joint2="right_finger"/></equality>'
-    assert robot_of(model(SITE + jaws, mirror), tip="tcp").dof == 6
+    assert Robot.from_mjcf(model(SITE + jaws, mirror), tip="tcp").dof == 6
 
 
 @pytest.mark.parametrize(("kind", "word"), [("slide", "prismatic"), ("ball", "ball")])
@@ -182,7 +182,7 @@ def test_what_couples_nothing_does_not_matter():
         '<actuator><general tendon="rope"/></actuator><sensor><tendonpos tendon="rope"/></sensor>'
     )
     text = model(SITE + '<site name="camera"/>', rest)
-    assert robot_of(text, tip="tcp").dof == 6
+    assert Robot.from_mjcf(text, tip="tcp").dof == 6
 
 
 @pytest.mark.parametrize(
@@ -207,4 +207,4 @@ def test_broken_and_hostile_models_are_refused_in_bounded_time(text, words):
 def test_without_the_extra_its_name_is_in_the_error(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(ImportError, match=r"Robot.from_mjcf needs mujoco: .*irbkin\[mjcf\]"):
-        robot_of("<mujoco/>")
+        Robot.from_mjcf("<mujoco/>")

@@ -54,7 +54,7 @@ def test_a_file_with_an_argument_an_include_and_a_package_is_a_robot(tmp_path):
     package(tmp_path, "arm_data")
     find = '<xacro:include filename="$(find arm_data)/urdf/lengths.xacro"/>'
     path = file(tmp_path, find + arm(), "arm_support/urdf/arm.urdf.xacro")
-    robot = irbkin.Robot.from_urdf(expanded(path, {"prefix": "left_"}))
+    robot = irbkin.Robot.from_urdf(path, args={"prefix": "left_"})
     assert robot.joint_names == tuple(f"left_joint_{n}" for n in range(1, 7))
     assert robot.fk([0] * 6)[2, 3] == 6 * 0.25
     assert robot.limits[0, 1] == pytest.approx(1.5707963267948966, abs=0)

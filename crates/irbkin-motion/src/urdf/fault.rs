@@ -31,7 +31,7 @@ pub enum UrdfFault {
     #[error(
         "the first element is <{found}>, it must be <robot>: convert the file to URDF{}",
         match &**.found {
-            "mujoco" => " (mjcf-urdf-simple-converter on PyPI does)",
+            "mujoco" => " (in Python Robot.from_mjcf reads it)",
             "sdf" => ", or take the one that it was made of: irbkin knows no converter",
             _ => "",
         }
@@ -57,7 +57,7 @@ pub enum UrdfFault {
     QuaternionNorm { joint: String, norm: f64, bound: f64 },
     #[error(
         "line {line} is xacro, <{element}>: it must be expanded first (xacro arm.urdf.xacro > \
-         arm.urdf)"
+         arm.urdf; in Python Robot.from_urdf takes a .xacro file)"
     )]
     Xacro { line: usize, element: String },
     #[error("line {line}: <{element}> has no {missing}")]
