@@ -111,6 +111,9 @@ def port(
     changed = port_program(robot, modules, tagged, source=source, **options)
     edits: list[dict[int, tuple[int, str]]] = [{} for _ in modules]
     for number, confdata in changed.items():
+        # A program may calculate such a number.
+        if number >= len(places):
+            continue
         at, spans = places[number]
         content = modules[at].source.encode()
         for (begin, end), value in zip(spans, confdata, strict=True):

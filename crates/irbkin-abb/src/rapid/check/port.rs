@@ -1,6 +1,7 @@
 //! A program for another arm: its confdata are solved anew along its moves (docs/guide/replace.md).
 
 use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::Error;
@@ -65,7 +66,7 @@ pub fn port<const N: usize>(
     let mut tags = tagged_runs.iter().map(tags_of);
     for run in &own_runs {
         let (tags, old) = (tags.next().unwrap_or_default(), old.next().unwrap_or_default());
-        porter.add(run, units, tags, old);
+        porter.add(run, units, tags, old)?;
     }
     porter.solved()
 }
@@ -75,7 +76,9 @@ pub fn port<const N: usize>(
 fn tags_of(run: &Run<'_>) -> Vec<Option<usize>> {
     let tag = |step: &Step<'_>| match step {
         Step::Move(stepped) => Some(match &stepped.step.target.value {
-            Ok(Target::RobTarget(own)) => usize::try_from(own.robconf.cf1 - FIRST_TAG).ok(),
+            Ok(Target::RobTarget(own)) => {
+                usize::try_from(own.robconf.cf1.saturating_sub(FIRST_TAG)).ok()
+            }
             _ => None,
         }),
         Step::NotFollowed { .. } => None,
@@ -201,14 +204,21 @@ impl<'a, const N: usize> Porter<'a, N> {
         units: &Units,
         mut tags: Vec<Option<usize>>,
         mut old: Vec<Before<N>>,
-    ) {
+    ) -> Result<(), Error> {
         let mut findings = [Vec::new(), Vec::new()];
         let goals = goals(self.arms[0], &run.steps, Some(units), findings.each_mut());
-        tags.resize(goals.len(), None);
+        // Where confdata decide on moves, the copy may have others.
+        if tags.len() != goals.len() {
+            tags = vec![None; goals.len()];
+        }
         old.resize(goals.len(), Before::default());
-        let candidates = goals.iter().zip(&old).map(|(goal, old)| self.candidates(goal, old.q));
-        let candidates = candidates.collect();
+        let mut candidates = Vec::with_capacity(goals.len());
+        for (index, (goal, old)) in goals.iter().zip(&old).enumerate() {
+            self.interrupt.check(index)?;
+            candidates.push(self.candidates(goal, old.q));
+        }
         self.runs.push(PortedRun { from: run.from, goals, tags, old, candidates });
+        Ok(())
     }
 
     fn candidates(&self, goal: &Goal<'_, N>, old: Option<[f64; N]>) -> Vec<[f64; N]> {
