@@ -110,7 +110,7 @@ def port(
     tagged = read_modules([it.encoded(own) for it, own in zip(files, sources, strict=True)])
     changed = port_program(robot, modules, tagged, source=source, **options)
     edits: list[dict[int, tuple[int, str]]] = [{} for _ in modules]
-    for number, confdata in changed.items():
+    for number, confdata in changed:
         # A program may calculate such a number.
         if number >= len(places):
             continue

@@ -201,7 +201,7 @@ pub(crate) fn port_program<'py>(
     units: Option<Vec<GivenUnit<'py>>>,
     last_values: bool,
     tools: Option<NamedTools<'py>>,
-) -> PyResult<BTreeMap<usize, Configuration>> {
+) -> PyResult<Vec<(usize, Configuration)>> {
     let units = read_units(units)?;
     let tools = read_tools(tools)?;
     let arm = six_joints(robot, "robot")?;

@@ -1,6 +1,5 @@
 //! A program for another arm: its confdata are solved anew along its moves (docs/guide/replace.md).
 
-use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -58,9 +57,9 @@ pub fn port<const N: usize>(
         arms: [arm, &flange],
         interrupt,
         runs: Vec::new(),
-        pinned: BTreeMap::new(),
+        count: 0,
+        pinned: Vec::new(),
         has_source: source.is_some(),
-        ends: BTreeMap::new(),
     };
     let mut old = old.into_iter().flatten();
     let mut tags = tagged_runs.iter().map(tags_of);
@@ -148,6 +147,8 @@ struct PortedRun<'m, const N: usize> {
     old: Vec<Before<N>>,
     /// The joints that meet each target inside the limits, those nearest to the old ones.
     candidates: Vec<Vec<[f64; N]>>,
+    /// The starts from which each line or arc has been followed, and its ends.
+    ends: Vec<Vec<([f64; N], Option<[f64; N]>)>>,
 }
 
 /// A posture at a target, with the best way to it.
@@ -167,6 +168,9 @@ impl<const N: usize> Posture<N> {
         Self { q, cost: 0.0, before: 0, is_broken: false }
     }
 }
+
+/// Confdata by their numbers, where they are known.
+type Pinned = Vec<Option<Configuration>>;
 
 /// The postures at the targets of all runs; `None` where there is none.
 type Chosen<const N: usize> = Vec<Vec<Option<Posture<N>>>>;
@@ -189,12 +193,12 @@ struct Porter<'a, const N: usize> {
     arms: [&'a Robot<N>; 2],
     interrupt: Interrupt<'a>,
     runs: Vec<PortedRun<'a, N>>,
-    /// The confdata that targets have, by their numbers.
-    pinned: BTreeMap<usize, Configuration>,
+    /// How many confdata there are.
+    count: usize,
+    /// The confdata that targets have; empty while each move has its own.
+    pinned: Pinned,
     /// Whether the arm before is known.
     has_source: bool,
-    /// The ends of lines that have been followed, by the run, the move and the bits of its start.
-    ends: BTreeMap<(usize, usize, [u64; N]), Option<[f64; N]>>,
 }
 
 impl<'a, const N: usize> Porter<'a, N> {
@@ -217,7 +221,9 @@ impl<'a, const N: usize> Porter<'a, N> {
             self.interrupt.check(index)?;
             candidates.push(self.candidates(goal, old.q));
         }
-        self.runs.push(PortedRun { from: run.from, goals, tags, old, candidates });
+        self.count = tags.iter().flatten().fold(self.count, |count, tag| count.max(tag + 1));
+        let ends = vec![Vec::new(); goals.len()];
+        self.runs.push(PortedRun { from: run.from, goals, tags, old, candidates, ends });
         Ok(())
     }
 
@@ -239,7 +245,7 @@ impl<'a, const N: usize> Porter<'a, N> {
     /// The confdata that change: from those of the postures nearest to the old ones and, if moves
     /// cannot have them, from those that moves would have without each other.
     fn solved(mut self) -> Result<Vec<(usize, Configuration)>, Error> {
-        let mut best = (f64::INFINITY, BTreeMap::new());
+        let mut best = (f64::INFINITY, Vec::new());
         if self.has_source {
             let nearest = |run: &PortedRun<N>| {
                 let first = |all: &Vec<[f64; N]>| all.first().map(|q| Posture::at(*q));
@@ -261,11 +267,8 @@ impl<'a, const N: usize> Porter<'a, N> {
     }
 
     /// The confdata of postures, others in place of those that moves cannot have, and what all cost.
-    fn improved(
-        &mut self,
-        first: &Chosen<N>,
-    ) -> Result<(f64, BTreeMap<usize, Configuration>), Error> {
-        self.pinned = self.wanted(first)?.into_iter().map(|(tag, all)| (tag, all[0])).collect();
+    fn improved(&mut self, first: &Chosen<N>) -> Result<(f64, Pinned), Error> {
+        self.pinned = self.wanted(first)?;
         let (mut chosen, mut cost) = self.chosen()?;
         let moves: usize = self.runs.iter().map(|run| run.goals.len()).sum();
         let mut tried = 0;
@@ -273,16 +276,16 @@ impl<'a, const N: usize> Porter<'a, N> {
         while cost < before && tried < MOST_TRIED {
             before = cost;
             for tag in self.unmet(&chosen) {
-                let Some(mut best) = self.pinned.get(&tag).copied() else { continue };
+                let mut best = self.pinned[tag];
                 for other in self.others(tag)? {
-                    self.pinned.insert(tag, other);
+                    self.pinned[tag] = Some(other);
                     let (_, own) = self.chosen()?;
                     if own < cost {
-                        (best, cost) = (other, own);
+                        (best, cost) = (Some(other), own);
                     }
                     tried += moves;
                 }
-                self.pinned.insert(tag, best);
+                self.pinned[tag] = best;
                 if tried >= MOST_TRIED {
                     break;
                 }
@@ -308,8 +311,8 @@ impl<'a, const N: usize> Porter<'a, N> {
     }
 
     /// The numbers of confdata that moves do not have, or with which lines cannot be followed.
-    fn unmet(&self, chosen: &Chosen<N>) -> BTreeSet<usize> {
-        let mut unmet = BTreeSet::new();
+    fn unmet(&self, chosen: &Chosen<N>) -> Vec<usize> {
+        let mut unmet = Vec::new();
         for (run, chosen) in self.runs.iter().zip(chosen) {
             for (index, posture) in chosen.iter().enumerate() {
                 let Some(posture) = posture else { continue };
@@ -319,59 +322,54 @@ impl<'a, const N: usize> Porter<'a, N> {
                 }
             }
         }
+        unmet.sort_unstable();
+        unmet.dedup();
         unmet
     }
 
     /// Pinned confdata that are not as they are written.
     fn changed(&self) -> Vec<(usize, Configuration)> {
-        let mut written = BTreeMap::new();
+        let mut changed = Vec::new();
         for run in &self.runs {
             for (goal, tag) in run.goals.iter().zip(&run.tags) {
-                if let (Some(Place::Tool(_, wanted)), Some(tag)) = (goal.place, tag) {
-                    written.insert(*tag, wanted.configuration);
+                if let (Some(Place::Tool(_, wanted)), Some(tag)) = (goal.place, *tag)
+                    && let Some(pinned) = self.pinned[tag]
+                    && pinned != wanted.configuration
+                {
+                    changed.push((tag, pinned));
                 }
             }
         }
-        let pinned = self.pinned.iter().map(|(tag, it)| (*tag, *it));
-        pinned.filter(|(tag, it)| written.get(tag).is_some_and(|written| written != it)).collect()
+        changed.sort_unstable_by_key(|(tag, _)| *tag);
+        changed.dedup_by_key(|(tag, _)| *tag);
+        changed
     }
 
-    /// The confdata that moves would have at their targets, by their numbers: each as it is pinned
-    /// or written if the posture has that. Moves that the arm before did not make with the confdata
-    /// of their targets count only where no others do.
-    fn wanted(
-        &self,
-        chosen: &[Vec<Option<Posture<N>>>],
-    ) -> Result<BTreeMap<usize, Vec<Configuration>>, Error> {
-        let [mut wanted, mut others] = [const { BTreeMap::new() }; 2];
+    /// The confdata that the first move to each target would have, as it is written if the posture
+    /// has that. Moves that the arm before did not make with the confdata of their targets count
+    /// only where no others do.
+    fn wanted(&self, chosen: &Chosen<N>) -> Result<Pinned, Error> {
+        let mut wanted = [vec![None; self.count], vec![None; self.count]];
         for (run, chosen) in self.runs.iter().zip(chosen) {
             for (index, posture) in chosen.iter().enumerate() {
                 let goal = &run.goals[index];
                 let (Some(tag), Some(posture)) = (run.tags[index], posture) else { continue };
                 let Some(Place::Tool(_, request)) = goal.place else { continue };
+                let own = &mut wanted[usize::from(run.old[index].is_other)][tag];
                 // Without a start, the first move is made by its confdata all the same.
-                if goal.conf() == Conf::Off && index > 0 {
+                if own.is_some() || goal.conf() == Conf::Off && index > 0 {
                     continue;
                 }
-                let has = |it: &Configuration, over| self.has(&posture.q, *it, over);
-                let pinned = self.pinned.get(&tag).filter(|it| has(it, NEAR_CONFDATA));
-                let written = Some(&request.configuration);
-                let written = written.filter(|it| has(it, CONFIGURATION_EDGE));
-                let own = match pinned.or(written) {
-                    Some(configuration) => *configuration,
-                    None => self.arms[1].configuration(&posture.q)?,
-                };
-                let counted = if run.old[index].is_other { &mut others } else { &mut wanted };
-                let all: &mut Vec<Configuration> = counted.entry(tag).or_default();
-                if !all.contains(&own) {
-                    all.push(own);
-                }
+                let written = request.configuration;
+                *own = Some(if self.has(&posture.q, written, CONFIGURATION_EDGE) {
+                    written
+                } else {
+                    self.arms[1].configuration(&posture.q)?
+                });
             }
         }
-        for (tag, all) in others {
-            wanted.entry(tag).or_insert(all);
-        }
-        Ok(wanted)
+        let [wanted, others] = wanted;
+        Ok(wanted.into_iter().zip(others).map(|(own, other)| own.or(other)).collect())
     }
 
     /// Whether joints have a configuration, some of their axes by so much over their quarters [rad].
@@ -481,8 +479,8 @@ impl<'a, const N: usize> Porter<'a, N> {
     /// What a posture costs: how far it is from the old one, and whether it has what is pinned.
     fn cost(&self, (run, index): (usize, usize), q: &[f64; N], is_free: bool) -> f64 {
         let PortedRun { tags, old, .. } = &self.runs[run];
-        let pinned = tags[index].and_then(|tag| self.pinned.get(&tag));
-        let is_met = is_free || pinned.is_none_or(|it| self.has(q, *it, NEAR_CONFDATA));
+        let pinned = tags[index].and_then(|tag| *self.pinned.get(tag)?);
+        let is_met = is_free || pinned.is_none_or(|it| self.has(q, it, NEAR_CONFDATA));
         let off = old[index].q.map_or(0.0, |old| apart(&old, q));
         if is_met { off } else { off + BROKEN }
     }
@@ -493,20 +491,13 @@ impl<'a, const N: usize> Porter<'a, N> {
         (run, index): (usize, usize),
         from: &[f64; N],
     ) -> Result<Option<[f64; N]>, Error> {
-        let key = (run, index, from.map(f64::to_bits));
-        if let Some(known) = self.ends.get(&key) {
+        let own = &self.runs[run];
+        if let Some((_, known)) = own.ends[index].iter().find(|(start, _)| start == from) {
             return Ok(*known);
         }
-        let goals = &self.runs[run].goals;
-        let end = Drive::end_of(
-            self.arms,
-            goals,
-            index,
-            from,
-            &MotionOptions::default(),
-            self.interrupt,
-        )?;
-        self.ends.insert(key, end);
+        let motion = MotionOptions::default();
+        let end = Drive::end_of(self.arms, &own.goals, index, from, &motion, self.interrupt)?;
+        self.runs[run].ends[index].push((*from, end));
         Ok(end)
     }
 
