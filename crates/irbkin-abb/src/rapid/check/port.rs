@@ -147,9 +147,13 @@ struct PortedRun<'m, const N: usize> {
     old: Vec<Before<N>>,
     /// The joints that meet each target inside the limits, those nearest to the old ones.
     candidates: Vec<Vec<[f64; N]>>,
-    /// The starts from which each line or arc has been followed, and its ends.
-    ends: Vec<Vec<([f64; N], Option<[f64; N]>)>>,
+    /// The ends of each line or arc that has been followed.
+    ends: Vec<Vec<LineEnd<N>>>,
 }
+
+/// The joints at the end of a line or an arc, by the bits of those at its start; `None` if it cannot
+/// be followed.
+type LineEnd<const N: usize> = ([u64; N], Option<[f64; N]>);
 
 /// A posture at a target, with the best way to it.
 #[derive(Clone, Copy)]
@@ -491,13 +495,13 @@ impl<'a, const N: usize> Porter<'a, N> {
         (run, index): (usize, usize),
         from: &[f64; N],
     ) -> Result<Option<[f64; N]>, Error> {
-        let own = &self.runs[run];
-        if let Some((_, known)) = own.ends[index].iter().find(|(start, _)| start == from) {
+        let (own, bits) = (&self.runs[run], from.map(f64::to_bits));
+        if let Some((_, known)) = own.ends[index].iter().find(|(start, _)| *start == bits) {
             return Ok(*known);
         }
         let motion = MotionOptions::default();
         let end = Drive::end_of(self.arms, &own.goals, index, from, &motion, self.interrupt)?;
-        self.runs[run].ends[index].push((*from, end));
+        self.runs[run].ends[index].push((bits, end));
         Ok(end)
     }
 
