@@ -98,7 +98,7 @@ fuzz: $(BUILT) $(VENV)/.group-check ## INPUTS (20,000) broken files of each kind
 soak fuzz: | toolchains
 	@tests/seeds.sh $@ $(or $(SECONDS),600)
 
-page: $(BUILT) ## Build the page, one HTML file with irbkin as WebAssembly: target/page/irbkin.html
+page: $(BUILT) $(VENV)/.group-pack ## Build the page, one HTML file with irbkin as WebAssembly: target/page/irbkin.html
 	@crates/irbkin-page/page/wasm.sh
 	$(RUN) crates/irbkin-page/page/pack.py
 

@@ -20,6 +20,7 @@ if ! command -v node >/dev/null; then
 fi
 node tests/page/wasm.mjs target/page/irbkin.wasm target/page/expected.json
 
+tests/retry.sh "$python" -m pip install --quiet --disable-pip-version-check --group pack
 "$python" crates/irbkin-page/page/pack.py
 if ! command -v chromium >/dev/null && ! tests/retry.sh apt-get install -y -qq --no-install-recommends chromium; then
     echo "SKIPPED: the page was not opened: there is no chromium"
