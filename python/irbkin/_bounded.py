@@ -29,9 +29,12 @@ def source(path: str | os.PathLike[str]) -> Iterator[tuple[str, str | None]]:
     """The text of a file and its absolute path; a text that begins with "<" is given as it is. An
     error names the file.
     """
-    text, file, where = os.fspath(path), None, "the text"
+    text = os.fsdecode(path)
+    file: str | None = None
+    where = "the text"
     if not text.lstrip().startswith("<"):
-        file, where = os.path.abspath(text), text
+        where = text
+        file = os.path.abspath(text)
         text = read(text).decode("utf-8-sig", "replace")
     try:
         yield text, file

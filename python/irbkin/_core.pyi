@@ -43,6 +43,7 @@ class _Rotation(Protocol):
     def as_matrix(self) -> npt.NDArray[Any]: ...
 
 __all__ = [
+    "FIRST_TAG",
     "NOT_THERE",
     "Argument",
     "Body",
@@ -898,6 +899,7 @@ class Guard:
 # What Python's records of RAPID take: array-likes and iterables of numbers.
 _Numbers: TypeAlias = npt.ArrayLike | Iterable[float]
 _Pose: TypeAlias = "Pose | tuple[_Numbers, _Numbers] | list[_Numbers]"
+FIRST_TAG: int
 NOT_THERE: float
 
 _R = TypeVar("_R", bound="_RapidRecord")

@@ -1,6 +1,6 @@
 //! `irbkin.Robot` from tables, parameters, limits and URDF, and its URDF.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -139,7 +139,8 @@ impl PyRobot {
     ///         is a program. Of a text that others send give bytes, which name no file.
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
-    ///         or seven joints, if the last of these can be no gripper's.
+    ///         or seven joints, if the last of these can be no gripper's; of several on one link
+    ///         the first named tool0, tcp, flange or grasp.
     ///     name: A name of your own; the URDF's when not given.
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
     ///         exact [rad], at most 1e-3; 0 keeps all. By default right angles rounded to four or
@@ -165,18 +166,15 @@ impl PyRobot {
         args: Option<&Bound<'_, PyAny>>,
         packages: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let name_or_text = text_or_path.str()?;
-        let name_or_text = name_or_text.to_string_lossy();
-        let extension = Path::new(&*name_or_text).extension();
-        let is_xacro = args.is_some()
-            || packages.is_some()
-            || extension.is_some_and(|it| it.eq_ignore_ascii_case("xacro"));
-        let bytes = if is_xacro {
+        let text = text_in(text_or_path)?;
+        // A text that others send is no program, whatever it ends with.
+        let is_xacro = text.is_none() && is_xacro_file(text_or_path)?;
+        let bytes = if is_xacro || args.is_some() || packages.is_some() {
             let module = text_or_path.py().import("irbkin._xacro")?;
             let text = module.call_method1("expanded", (text_or_path, args, packages))?;
             text.extract::<String>()?.into_bytes()
         } else {
-            bytes_of(text_or_path)?
+            text.map_or_else(|| read_file(text_or_path), Ok)?
         };
         let read = || UrdfArm::read(text_of(&bytes)?, base, tip, &[6, 7])?.any_arm(snap);
         let arm = SharedArm::from(text_or_path.py().detach(read).map_err(exception)?);
@@ -404,11 +402,15 @@ fn text_of(bytes: &[u8]) -> Result<&str, Error> {
     Ok(text)
 }
 
-/// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a
-/// text.
+/// The bytes of a text, or of the file at a path.
 fn bytes_of(text_or_path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+    text_in(text_or_path)?.map_or_else(|| read_file(text_or_path), Ok)
+}
+
+/// The bytes of a text; `None` of a path. A str that begins with `<`, blanks aside, is a text.
+fn text_in(text_or_path: &Bound<'_, PyAny>) -> PyResult<Option<Vec<u8>>> {
     if let Ok(bytes) = text_or_path.cast::<PyBytes>() {
-        return Ok(bytes.as_bytes().to_vec());
+        return Ok(Some(bytes.as_bytes().to_vec()));
     }
     if let Ok(text) = text_or_path.cast::<PyString>() {
         // A half of a surrogate pair is kept as the bytes that it would be, which are no UTF-8.
@@ -416,11 +418,20 @@ fn bytes_of(text_or_path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
         let bytes = bytes.cast::<PyBytes>()?.as_bytes();
         let is_blank = |c: char| c.is_whitespace() || c == '\u{feff}';
         if String::from_utf8_lossy(bytes).trim_start_matches(is_blank).starts_with('<') {
-            return Ok(bytes.to_vec());
+            return Ok(Some(bytes.to_vec()));
         }
     }
-    let py = text_or_path.py();
-    let path = py.import("os")?.call_method1("fspath", (text_or_path,))?;
+    Ok(None)
+}
+
+fn is_xacro_file(path: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let name: PathBuf = path.py().import("os")?.call_method1("fspath", (path,))?.extract()?;
+    Ok(name.extension().is_some_and(|it| it.eq_ignore_ascii_case("xacro")))
+}
+
+fn read_file(path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+    let py = path.py();
+    let path = py.import("os")?.call_method1("fspath", (path,))?;
     let file = py.import("builtins")?.call_method1("open", (path, "rb"))?;
     let read = file.call_method0("read");
     file.call_method0("close")?;

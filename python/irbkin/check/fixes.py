@@ -11,14 +11,13 @@ from irbkin.check.checker import Checker
 from irbkin.check.findings import Finding
 from irbkin.check.jobs import Job
 from irbkin.rapid import Checked, ModuleFile
-from irbkin.rapid.program import edited, program_of
+from irbkin.rapid.program import Edits, edited, program_of
 
 PASSES = 10
 """Iterations of correction and check, beyond one for each file."""
 Text = tuple[ModuleFile, str, str]
 """A file, its text before and after corrections."""
-Edits = dict[str, dict[int, tuple[int, str]]]
-"""The end and the replacement of each edit, by file and first byte."""
+EditsByFile = dict[str, Edits]
 Checks = Sequence[tuple[Checked, Sequence[Finding]]]
 
 
@@ -74,11 +73,11 @@ def _places(jobs: Sequence[Job], checks: Checks) -> set[tuple[int, int, str, str
     }
 
 
-def _edits(checks: Checks, refused: Collection[str]) -> Edits:
+def _edits(checks: Checks, refused: Collection[str]) -> EditsByFile:
     """The corrections in files that are not refused, without those that contradict each other."""
     rows = [own.edits for _, found in checks for own in found]
     wanted = Counter(edit[:2] for edit in {edit for row in rows for edit in row})
-    edits: Edits = {}
+    edits: EditsByFile = {}
     for row in rows:
         if all(wanted[edit[:2]] == 1 and edit[0] not in refused for edit in row):
             for file, begin, end, text in row:
@@ -86,7 +85,7 @@ def _edits(checks: Checks, refused: Collection[str]) -> Edits:
     return edits
 
 
-def _edited(job: Job, edits: Edits) -> Job:
+def _edited(job: Job, edits: EditsByFile) -> Job:
     program = job.program
     files = [
         replace(file, content=file.encoded(edited(module.source, edits.get(file.path, {}))))

@@ -22,7 +22,8 @@ from irbkin.check.checker import Checker
 from irbkin.check.jobs import backup_of, only_job
 from irbkin.check.report import rendered, report_of
 from irbkin.check.settings import settings_of
-from irbkin.cli.arguments import ROBOT_HELP, Parser, read_tools
+from irbkin.cli.arguments import ROBOT_HELP, Parser
+from irbkin.cli.check import given
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import STDIN
 from irbkin.rapid import port
@@ -48,8 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
         if is_inside(os.path.realpath(arguments.to), os.path.realpath(place)):
             raise CommandError(f"--to {arguments.to}: is in {place}, which is read: give another")
     settings = settings_of(names)
-    options = {name: it for name, it in vars(arguments).items() if it is not None}
-    options = {**settings.options, **options, "tool": read_tools(arguments.tool or ())}
+    options = {**settings.options, **given(arguments)}
     checker = Checker(options, settings)
     before = arguments.from_base or settings.options.get("base")
     source = None

@@ -126,7 +126,8 @@ def arms(
         IrbkinError: A program without moves, an unknown name, a payload that no arm has, or as
             `Program.check`.
     """
-    report, ended = reporter(progress), Event()
+    report = reporter(progress)
+    ended = Event()
     given = catalog() if names is None else [names] if isinstance(names, str) else names
     entries = {it.name: it for it in map(catalog_entry, given)}.values()
     if not entries:
@@ -146,7 +147,7 @@ def arms(
     def candidate(row: Candidate) -> Candidate:
         robot = Robot(row.name).with_base(placed)
         try:
-            best = _checked(row, robot, program.check(robot, **options))
+            best = _with_check(row, robot, program.check(robot, **options))
         except InvalidModelError:
             # The options are those of the stand-in: this arm has no confdata.
             return row
@@ -154,7 +155,7 @@ def arms(
             if ended.is_set() or best.met == moves:
                 break
             moved = robot.with_base(robot.base @ pose([way / 1e3, 0.0, 0.0]))
-            found = _checked(row, moved, program.check(moved, **options))
+            found = _with_check(row, moved, program.check(moved, **options))
             if found.met > best.met:
                 best = found._replace(shift_mm=way)
         return best
@@ -178,14 +179,15 @@ def arms(
     return Candidates(sorted(found, key=lambda it: (-it.met, it.reach or np.inf)))
 
 
-def _checked(row: Candidate, robot: Robot, checked: Checked) -> Candidate:
+def _with_check(row: Candidate, robot: Robot, checked: Checked) -> Candidate:
     """A row with what the check of its arm finds."""
     wrong: set[tuple[int, int, int]] = set()
     singular: set[tuple[int, int, int]] = set()
     for finding in checked.findings:
         places = singular if finding.code.startswith("S") else wrong
         places.update([(finding.module, finding.line, finding.column), *finding.related])
-    unchecked, near, met = 0, 0, []
+    unchecked = near = 0
+    met = []
     for move in checked.moves:
         place = (move.module, move.line, move.column)
         near += place in singular
@@ -199,7 +201,8 @@ def _checked(row: Candidate, robot: Robot, checked: Checked) -> Candidate:
 
 def _margin(robot: Robot, q: Floats) -> float:
     """Least distance of joint vectors from the limits [deg]."""
-    limits, linkage = robot.limits, robot.linkage_limits
+    limits = robot.limits
+    linkage = robot.linkage_limits
     if linkage is not None:
         # Of the serial joint 3 any 2 pi equivalent is inside.
         middle = linkage.mean()

@@ -3,20 +3,18 @@
 import os
 import re
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from irbkin import Robot
-from irbkin._core import Checked, port_program, read_modules
+from irbkin._core import FIRST_TAG, Checked, Configuration, Module, port_program, read_modules
 from irbkin._files import replaced
 from irbkin._words import counted
-from irbkin.rapid.program import ModuleFile, Program, edited, program_of
+from irbkin.rapid.program import Edits, ModuleFile, Program, edited, program_of
 
-FIRST_TAG = 1_000_000
-"""The cf1 of the first confdata of a program in its copy with numbers."""
 SKIPPED = re.compile(rb'"[^"\r\n]*"|![^\r\n]*')
 """Texts in quotes and comments."""
 PART = rb"\s*(?:\[[^][]*\]|[\w{}.]+)\s*"
@@ -26,10 +24,15 @@ CONFDATA = re.compile(
     re.IGNORECASE,
 )
 """A robtarget with its confdata, and a datum that is one."""
-
-
 MOST_SHOWN = 40
-"""Letters of an instruction in a message, as in those of a check."""
+"""Letters of an instruction in a message, as a check shows it."""
+
+
+class Place(NamedTuple):
+    """Where a confdata is written: the module, and the bytes of the four numbers."""
+
+    module: int
+    numbers: list[tuple[int, int]]
 
 
 class LeftMove(NamedTuple):
@@ -101,31 +104,15 @@ def port(
     folder = None if to is None else Path(to)
     if folder is not None and (folder.is_file() or (folder.is_dir() and any(folder.iterdir()))):
         raise FileExistsError(f"{to}: is there already, it must be a new or an empty folder")
-    files, modules = list(program.files), list(program.modules)
-    places = [(at, spans) for at, it in enumerate(modules) for spans in _confdata(it.source)]
-    tags: list[dict[int, tuple[int, str]]] = [{} for _ in modules]
-    for number, (at, ((begin, end), *_)) in enumerate(places):
-        tags[at][begin] = (end, str(FIRST_TAG + number))
-    sources = [edited(it.source, own) for it, own in zip(modules, tags, strict=True)]
-    tagged = read_modules([it.encoded(own) for it, own in zip(files, sources, strict=True)])
-    changed = port_program(robot, modules, tagged, source=source, **options)
-    edits: list[dict[int, tuple[int, str]]] = [{} for _ in modules]
-    for number, confdata in changed:
-        # A program may calculate such a number.
-        if number >= len(places):
-            continue
-        at, spans = places[number]
-        content = modules[at].source.encode()
-        for (begin, end), value in zip(spans, confdata, strict=True):
-            if int(content[begin:end]) != value:
-                edits[at][begin] = (end, str(value))
-    for at, own in enumerate(edits):
-        if own:
-            before = modules[at].source
-            content = files[at].rewritten(before, edited(before, own))
-            files[at] = replace(files[at], content=content)
+    places = list(_places(program))
+    tagged = _with_tags(program, places)
+    modules = list(program.modules)
+    solved = port_program(robot, modules, tagged, source=source, **options)
+    # A program may calculate a number that looks like one of these.
+    changed = {number: confdata for number, confdata in solved if number < len(places)}
+    files = _with_confdata(program, [(places[it], confdata) for it, confdata in changed.items()])
     if folder is not None:
-        files = _written(files, folder)
+        files = _write(files, folder)
     # What is wrong with these files is found in their copies, too.
     known = {file.path for file in program.files}
     ported = program_of(files, [it for it in program.findings if it.file not in known])
@@ -133,11 +120,40 @@ def port(
     return Ported(ported, len(changed), left)
 
 
-def _confdata(source: str) -> Iterator[list[tuple[int, int]]]:
-    """The places of the four numbers of each confdata of a text, in bytes."""
-    content = SKIPPED.sub(lambda it: b" " * len(it[0]), source.encode())
-    for match in CONFDATA.finditer(content):
-        yield [match.span(group) for group in range(1, 9) if match[group] is not None]
+def _places(program: Program) -> Iterator[Place]:
+    """Where confdata are written, in the order of the texts."""
+    for number, module in enumerate(program.modules):
+        content = SKIPPED.sub(lambda it: b" " * len(it[0]), module.source.encode())
+        for match in CONFDATA.finditer(content):
+            numbers = [match.span(group) for group in range(1, 9) if match[group] is not None]
+            yield Place(number, numbers)
+
+
+def _with_tags(program: Program, places: Sequence[Place]) -> Sequence[Module]:
+    """The modules with the number of each confdata as its cf1."""
+    edits: list[Edits] = [{} for _ in program.modules]
+    for number, place in enumerate(places):
+        begin, end = place.numbers[0]
+        edits[place.module][begin] = (end, str(FIRST_TAG + number))
+    rows = zip(program.files, program.modules, edits, strict=True)
+    return read_modules([file.encoded(edited(module.source, own)) for file, module, own in rows])
+
+
+def _with_confdata(
+    program: Program, changed: Iterable[tuple[Place, Configuration]]
+) -> list[ModuleFile]:
+    """The files with other confdata: numbers that do not differ stay as they are written."""
+    edits: list[Edits] = [{} for _ in program.modules]
+    contents = [module.source.encode() for module in program.modules]
+    for place, confdata in changed:
+        for (begin, end), value in zip(place.numbers, confdata, strict=True):
+            if int(contents[place.module][begin:end]) != value:
+                edits[place.module][begin] = (end, str(value))
+    files = []
+    for file, module, own in zip(program.files, program.modules, edits, strict=True):
+        after = edited(module.source, own)
+        files.append(replace(file, content=file.rewritten(module.source, after)) if own else file)
+    return files
 
 
 def _left(program: Program, checked: Checked) -> Iterator[LeftMove]:
@@ -163,7 +179,7 @@ def _left(program: Program, checked: Checked) -> Iterator[LeftMove]:
             yield LeftMove(program.files[move.module].path, move.line, move.column, words)
 
 
-def _written(files: Sequence[ModuleFile], folder: Path) -> list[ModuleFile]:
+def _write(files: Sequence[ModuleFile], folder: Path) -> list[ModuleFile]:
     """Write files below a folder, and return them there; without the folder if one fails."""
     top = os.path.commonpath([os.path.dirname(os.path.abspath(file.path)) for file in files])
     there = []

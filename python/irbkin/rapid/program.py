@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -24,6 +24,8 @@ FOLDERS = ("PROGMOD", "SYSMOD")
 """Folders of a task in a backup. HOME has older copies beside them."""
 ENCODED = "encoded module"
 """Words of the fault of a module that is no text."""
+Edits = dict[int, tuple[int, str]]
+"""The end and the replacement of each edit of a text, by its first byte."""
 LISTED = re.compile(r"<Module>([^<]*)</Module>", re.IGNORECASE)
 
 
@@ -123,9 +125,11 @@ class Program:
         return f"Program({len(self.modules)} modules, {moves} moves, {len(self.findings)} findings)"
 
 
-def edited(source: str, edits: Mapping[int, tuple[int, str]]) -> str:
-    """Return a text after edits: their ends and their texts, by the bytes at which they begin."""
-    content, parts, copied = source.encode(), [], 0
+def edited(source: str, edits: Edits) -> str:
+    """Return a text after edits."""
+    content = source.encode()
+    parts: list[bytes] = []
+    copied = 0
     for begin, (end, text) in sorted(edits.items()):
         parts += [content[copied:begin], text.encode()]
         copied = end

@@ -279,9 +279,9 @@ fn carriers(tree: &Tree<'_>) -> Vec<usize> {
 }
 
 /// The only link at the end of a chain whose number of joints is in `wanted`. A frame is never
-/// guessed: if there are several, none is chosen, except one of [`TOOLS`] if all of them are fixed to
-/// one link, which the remark says then. Nor if a joint may be a gripper's: one of [`grippers`], or the
-/// last one if another end is on a link before it.
+/// guessed: if there are several, none is chosen, except one of [`TOOLS`] if all of them are fixed
+/// to one link, which the remark says then. Nor if a joint may be a gripper's: one of [`grippers`],
+/// or the last one if another end is on a link before it.
 fn only_tip(
     tree: &Tree<'_>,
     base: usize,

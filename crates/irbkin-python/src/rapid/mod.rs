@@ -25,10 +25,11 @@ use self::program::{
     TextFault,
 };
 use self::routine_motion::PyRoutineMotion;
-use irbkin_abb::rapid::NOT_THERE;
+use irbkin_abb::rapid::{FIRST_TAG, NOT_THERE};
 
 /// Add classes and functions to the extension module.
 pub(super) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("FIRST_TAG", FIRST_TAG)?;
     module.add("NOT_THERE", NOT_THERE)?;
     add!(module: classes [
         RobTarget, JointTarget, ToolData, WobjData, RapidPose, LoadData, SpeedData, ZoneData,
