@@ -154,6 +154,77 @@ def test_arms_without_confdata_are_refused(tmp_path: Path, arm: str, words: str)
         rapid.port(own, NEW, source=Robot(arm))
 
 
+COUPLED = Robot("IRB 2400-10/1.55")
+FORMS = {
+    "arrays": "FOR i FROM 1 TO 3 DO MoveJ a{i},v100,fine,tool0; "
+    "MoveL Offs(a{i},10,0,-20),v100,fine,tool0; ENDFOR",
+    "arguments": "go p0; go p1; go p2;",
+    "assigned": "pc:=Offs(p0,0,0,20); MoveJ p0,v100,fine,tool0; MoveL pc,v100,fine,tool0;",
+    "off": "ConfJ\\Off; ConfL\\Off; MoveJ p0,v100,fine,tool0; "
+    "MoveL Offs(p0,0,0,20),v100,fine,tool0; MoveJ p1,v100,fine,tool0; "
+    "MoveL Offs(p1,0,0,20),v100,fine,tool0;",
+    "lines": "MoveJ p0,v100,fine,tool0; MoveL p1,v100,fine,tool0; MoveJ p2,v100,fine,tool0;",
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("seed", range(6))
+def test_confdata_are_found_through_arrays_arguments_and_assignments(
+    tmp_path: Path, form: str, seed: int
+) -> None:
+    rows = postures(OLD, 100 + seed, 3)
+    every = [target(OLD, q) for q in rows]
+    data = [f"CONST robtarget p{n}:={own};" for n, own in enumerate(every)]
+    lines = [
+        "MODULE Cell",
+        *data,
+        f"CONST robtarget a{{3}}:=[{','.join(every)}];",
+        "VAR robtarget pc;",
+        f"PROC main() {FORMS[form]} ENDPROC",
+        "PROC go(robtarget p) MoveJ Offs(p,0,0,30),v100,fine,tool0;",
+        "MoveL p,v100,fine,tool0; ENDPROC",
+        "ENDMODULE",
+    ]
+    own = loaded(tmp_path, "\n".join(lines).encode())
+    assert rapid.port(own, OLD, source=OLD).changed == 0
+    for arm in (COUPLED, NEW, Robot("IRB 1660ID-6/1.55")):
+        ported = rapid.port(own, arm, source=OLD)
+        checked = ported.program.check(arm)
+        found = [it for it in checked.findings if it.code[0] in "RC"]
+        # Lines between postures by chance may be beyond any confdata.
+        if form != "lines":
+            assert not {it.code for it in found} & {"C201", "C202", "C203"}
+        wrong = {it.line for it in found if it.code not in ("C203", "C204")}
+        # What a routine is not called with is not known.
+        unknown = {it.line for it in checked.moves if it.unchecked is not None}
+        assert {it.line for it in ported.left} == wrong | unknown
+
+
+def test_a_line_that_ends_elsewhere_has_the_confdata_that_it_ends_with(tmp_path: Path) -> None:
+    rotation = "[0.3726806,0.7718455,-0.3648212,0.3636884]"
+    rows = {
+        "p1": ("85.71,-564.58,831.48", "-1,-1,-2,1"),
+        "p2": ("288.72,-759.49,1092.18", "-1,-3,-1,1"),
+        "p3": ("43.01,-535.59,1277.63", "-1,-2,-1,1"),
+    }
+    data = [
+        f"CONST robtarget {name}:=[[{xyz}],{rotation},[{confdata}],{NOWHERE}];"
+        for name, (xyz, confdata) in rows.items()
+    ]
+    moves = ["MoveJ p1,v100,fine,tool0;", "MoveL p2,v100,fine,tool0;", "MoveL p3,v100,fine,tool0;"]
+    text = "\n".join(["MODULE M", *data, "PROC main()", *moves, "ENDPROC", "ENDMODULE"])
+    ported = rapid.port(loaded(tmp_path, text.encode()), COUPLED, source=OLD)
+    assert codes(ported.program.check(COUPLED)) == {"R104"}
+    (left,) = ported.left
+    assert "on the spot" in left.message
+
+
+def test_a_confdata_on_the_edge_of_a_quarter_stays(tmp_path: Path) -> None:
+    move = f"MoveJ [[900,-0.001,700],[0,0,1,0],[0,0,0,0],{NOWHERE}],v100,fine,tool0;"
+    own = loaded(tmp_path, f"MODULE M\nPROC main()\n{move}\nENDPROC\nENDMODULE".encode())
+    assert rapid.port(own, OLD, source=OLD).changed == 0
+
+
 def test_nothing_is_overwritten(tmp_path: Path) -> None:
     content = program(OLD, postures(OLD, 0, 1), "MoveJ p0,v100,fine,tool0;")
     own = loaded(tmp_path, content)

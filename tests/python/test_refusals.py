@@ -178,6 +178,8 @@ MODELS = [
     ("panda.ik_configured(T, [0] * 4)", "this robot has no ABB configuration"),
     ("Robot.from_urdf('<robot')", "URDF: line 1, column 7 is not XML: the text ends before the "),
     ("Robot.from_urdf(b\"<robot name='\\xff'/>\")", "URDF: byte 13 is not valid UTF-8"),
+    # A text is no xacro file, whatever it ends with.
+    ("Robot.from_urdf('<robot name=\\'a\\'/><!-- -->.xacro')", "line 1, column 26 is not XML"),
     ("Robot.from_urdf('<mujoco/>')", "URDF: the first element is <mujoco>, it must be <robot>"),
 ]  # fmt: skip
 ARGUMENTS = [

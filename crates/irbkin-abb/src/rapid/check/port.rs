@@ -64,10 +64,10 @@ pub fn port<const N: usize>(
     let mut old = old.into_iter().flatten();
     let mut tags = tagged_runs.iter().map(tags_of);
     for run in &own_runs {
-        let (tags, old) = (tags.next().unwrap_or_default(), old.next().unwrap_or_default());
-        porter.add(run, units, tags, old)?;
+        let tags = tags.next().unwrap_or_default();
+        porter.add(run, units, tags, old.next().unwrap_or_default())?;
     }
-    porter.solved()
+    porter.solve()
 }
 
 /// The numbers of the confdata of the moves of a run; `None` of joint angles, and where it is
@@ -113,8 +113,9 @@ fn made_before<const N: usize>(
             drive.samples.forget_before(index + 1);
             Ok(())
         };
-        let (robots, units) = ([robot, &flange], Some(units));
-        let followed = Followed::new(robots, &run.steps, &motion, units, interrupt, &mut forget)?;
+        let robots = [robot, &flange];
+        let followed =
+            Followed::new(robots, &run.steps, &motion, Some(units), interrupt, &mut forget)?;
         let before = |made: &Made<N>| Before {
             q: made.q,
             is_blocked: !made.as_programmed,
@@ -246,9 +247,9 @@ impl<'a, const N: usize> Porter<'a, N> {
         all
     }
 
-    /// The confdata that change: from those of the postures nearest to the old ones and, if moves
-    /// cannot have them, from those that moves would have without each other.
-    fn solved(mut self) -> Result<Vec<(usize, Configuration)>, Error> {
+    /// The confdata that change: beginning with the postures nearest to the old ones and, if moves
+    /// cannot have these, with the postures that each move would have by itself.
+    fn solve(mut self) -> Result<Vec<(usize, Configuration)>, Error> {
         let mut best = (f64::INFINITY, Vec::new());
         if self.has_source {
             let nearest = |run: &PortedRun<N>| {
@@ -256,24 +257,24 @@ impl<'a, const N: usize> Porter<'a, N> {
                 run.candidates.iter().map(first).collect()
             };
             let nearest: Chosen<N> = self.runs.iter().map(nearest).collect();
-            best = self.improved(&nearest)?;
+            best = self.improve(&nearest)?;
         }
         if best.0 >= BROKEN {
             self.pinned.clear();
-            let (free, _) = self.chosen()?;
-            let other = self.improved(&free)?;
+            let (free, _) = self.choose()?;
+            let other = self.improve(&free)?;
             if other.0 < best.0 {
                 best = other;
             }
         }
         self.pinned = best.1;
-        Ok(self.changed())
+        Ok(self.changes())
     }
 
     /// The confdata of postures, others in place of those that moves cannot have, and what all cost.
-    fn improved(&mut self, first: &Chosen<N>) -> Result<(f64, Pinned), Error> {
-        self.pinned = self.wanted(first)?;
-        let (mut chosen, mut cost) = self.chosen()?;
+    fn improve(&mut self, first: &Chosen<N>) -> Result<(f64, Pinned), Error> {
+        self.pinned = self.first_confdata(first)?;
+        let (mut chosen, mut cost) = self.choose()?;
         let moves: usize = self.runs.iter().map(|run| run.goals.len()).sum();
         let mut tried = 0;
         let mut before = f64::INFINITY;
@@ -283,7 +284,7 @@ impl<'a, const N: usize> Porter<'a, N> {
                 let mut best = self.pinned[tag];
                 for other in self.others(tag)? {
                     self.pinned[tag] = Some(other);
-                    let (_, own) = self.chosen()?;
+                    let (_, own) = self.choose()?;
                     if own < cost {
                         (best, cost) = (Some(other), own);
                     }
@@ -294,7 +295,7 @@ impl<'a, const N: usize> Porter<'a, N> {
                     break;
                 }
             }
-            chosen = self.chosen()?.0;
+            chosen = self.choose()?.0;
         }
         Ok((cost, self.pinned.clone()))
     }
@@ -332,48 +333,51 @@ impl<'a, const N: usize> Porter<'a, N> {
     }
 
     /// Pinned confdata that are not as they are written.
-    fn changed(&self) -> Vec<(usize, Configuration)> {
-        let mut changed = Vec::new();
+    fn changes(&self) -> Vec<(usize, Configuration)> {
+        let mut changes = Vec::new();
         for run in &self.runs {
             for (goal, tag) in run.goals.iter().zip(&run.tags) {
                 if let (Some(Place::Tool(_, wanted)), Some(tag)) = (goal.place, *tag)
                     && let Some(pinned) = self.pinned[tag]
                     && pinned != wanted.configuration
                 {
-                    changed.push((tag, pinned));
+                    changes.push((tag, pinned));
                 }
             }
         }
-        changed.sort_unstable_by_key(|(tag, _)| *tag);
-        changed.dedup_by_key(|(tag, _)| *tag);
-        changed
+        changes.sort_unstable_by_key(|(tag, _)| *tag);
+        changes.dedup_by_key(|(tag, _)| *tag);
+        changes
     }
 
-    /// The confdata that the first move to each target would have, as it is written if the posture
-    /// has that. Moves that the arm before did not make with the confdata of their targets count
-    /// only where no others do.
-    fn wanted(&self, chosen: &Chosen<N>) -> Result<Pinned, Error> {
-        let mut wanted = [vec![None; self.count], vec![None; self.count]];
+    /// The confdata of each target: what the posture of its first move has, or as it is written if
+    /// that one nearly has it and any other has it. Moves that the arm before did not make with the confdata of their targets
+    /// count only where no others do.
+    fn first_confdata(&self, chosen: &Chosen<N>) -> Result<Pinned, Error> {
+        let mut made: Vec<Option<(Configuration, bool)>> = vec![None; self.count];
+        let mut others = made.clone();
         for (run, chosen) in self.runs.iter().zip(chosen) {
             for (index, posture) in chosen.iter().enumerate() {
                 let goal = &run.goals[index];
                 let (Some(tag), Some(posture)) = (run.tags[index], posture) else { continue };
                 let Some(Place::Tool(_, request)) = goal.place else { continue };
-                let own = &mut wanted[usize::from(run.old[index].is_other)][tag];
                 // Without a start, the first move is made by its confdata all the same.
-                if own.is_some() || goal.conf() == Conf::Off && index > 0 {
+                if goal.conf() == Conf::Off && index > 0 {
                     continue;
                 }
+                let known = if run.old[index].is_other { &mut others } else { &mut made };
                 let written = request.configuration;
-                *own = Some(if self.has(&posture.q, written, CONFIGURATION_EDGE) {
-                    written
-                } else {
-                    self.arms[1].configuration(&posture.q)?
-                });
+                let has = |over| self.has(&posture.q, written, over);
+                if has(CONFIGURATION_EDGE) && known[tag].is_none_or(|(_, is_near)| is_near) {
+                    known[tag] = Some((written, true));
+                } else if known[tag].is_none() {
+                    let own = self.arms[1].configuration(&posture.q)?;
+                    known[tag] = Some((own, has(NEAR_CONFDATA)));
+                }
             }
         }
-        let [wanted, others] = wanted;
-        Ok(wanted.into_iter().zip(others).map(|(own, other)| own.or(other)).collect())
+        let known = made.into_iter().zip(others).map(|(own, other)| own.or(other));
+        Ok(known.map(|it| it.map(|(configuration, _)| configuration)).collect())
     }
 
     /// Whether joints have a configuration, some of their axes by so much over their quarters [rad].
@@ -382,7 +386,7 @@ impl<'a, const N: usize> Porter<'a, N> {
     }
 
     /// The posture at the target of each move of each run, and what they cost together [rad^2].
-    fn chosen(&mut self) -> Result<(Chosen<N>, f64), Error> {
+    fn choose(&mut self) -> Result<(Chosen<N>, f64), Error> {
         let mut chosen: Chosen<N> = Vec::with_capacity(self.runs.len());
         let mut total = 0.0;
         for run in 0..self.runs.len() {
@@ -439,10 +443,9 @@ impl<'a, const N: usize> Porter<'a, N> {
         let old = self.runs[run].old[index];
         let is_known = is_next && !goal.from_unknown && goal.place.is_some();
         let is_line = goal.is_cartesian() && is_known;
-        let is_free = goal.conf() == Conf::Off || old.is_other;
         let is_led = is_line || goal.conf() == Conf::Off && !goal.is_cartesian();
         let mut found: Vec<Posture<N>> = Vec::new();
-        // Those from which any posture can follow, and what that costs.
+        // The postures before from which any one can follow, and what that costs.
         let mut free: Vec<(usize, f64)> = Vec::new();
         let broken = if is_line && !old.is_blocked { BROKEN } else { 0.0 };
         for (from, posture) in before.iter().enumerate() {
@@ -452,9 +455,7 @@ impl<'a, const N: usize> Porter<'a, N> {
                 (false, false) => None,
             };
             if let Some(q) = end {
-                let own = self.cost((run, index), &q, is_free);
-                let (cost, is_broken) = (posture.cost + own, own >= BROKEN);
-                found.push(Posture { q, cost, before: from, is_broken });
+                found.push(self.posture((run, index), &q, (from, posture.cost)));
             } else {
                 free.push((from, posture.cost + broken));
             }
@@ -466,27 +467,35 @@ impl<'a, const N: usize> Porter<'a, N> {
                     free.iter().map(|(from, cost)| (*from, cost + step(&before[*from].q, q)));
                 // Without one before it, the nearest to zero.
                 let best = ways.min_by(|a, b| a.1.total_cmp(&b.1));
-                let (from, cost) = best.unwrap_or((0, step(&[0.0; N], q)));
-                let own = self.cost((run, index), q, is_free);
-                let is_broken = own >= BROKEN || broken > 0.0 && !before.is_empty();
-                Posture { q: *q, cost: cost + own, before: from, is_broken }
+                let way = best.unwrap_or((0, step(&[0.0; N], q)));
+                let mut posture = self.posture((run, index), q, way);
+                posture.is_broken |= broken > 0.0 && !before.is_empty();
+                posture
             }));
         }
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         found.truncate(if self.pinned.is_empty() { MOST_FREE } else { MOST_POSTURES });
-        // Those that cost more are never better: any other follows from the best by a break.
+        // Anything that costs more is never better: all follow from the best by a break.
         let most = found.first().map_or(0.0, |it| it.cost + BROKEN);
         found.retain(|it| it.cost < most);
         Ok(found)
     }
 
-    /// What a posture costs: how far it is from the old one, and whether it has what is pinned.
-    fn cost(&self, (run, index): (usize, usize), q: &[f64; N], is_free: bool) -> f64 {
-        let PortedRun { tags, old, .. } = &self.runs[run];
+    /// A posture behind another one, which a way of some cost leads to: it costs how far it is from
+    /// the old one, and breaks where it does not have the confdata that are pinned.
+    fn posture(
+        &self,
+        (run, index): (usize, usize),
+        q: &[f64; N],
+        (before, way): (usize, f64),
+    ) -> Posture<N> {
+        let PortedRun { goals, tags, old, .. } = &self.runs[run];
         let pinned = tags[index].and_then(|tag| *self.pinned.get(tag)?);
-        let is_met = is_free || pinned.is_none_or(|it| self.has(q, it, NEAR_CONFDATA));
+        let is_any = goals[index].conf() == Conf::Off || old[index].is_other;
+        let is_broken = !is_any && pinned.is_some_and(|it| !self.has(q, it, NEAR_CONFDATA));
         let off = old[index].q.map_or(0.0, |old| apart(&old, q));
-        if is_met { off } else { off + BROKEN }
+        let cost = way + off + if is_broken { BROKEN } else { 0.0 };
+        Posture { q: *q, cost, before, is_broken }
     }
 
     /// The joints at the end of a line or an arc; `None` if it cannot be followed.
@@ -495,7 +504,8 @@ impl<'a, const N: usize> Porter<'a, N> {
         (run, index): (usize, usize),
         from: &[f64; N],
     ) -> Result<Option<[f64; N]>, Error> {
-        let (own, bits) = (&self.runs[run], from.map(f64::to_bits));
+        let own = &self.runs[run];
+        let bits = from.map(f64::to_bits);
         if let Some((_, known)) = own.ends[index].iter().find(|(start, _)| *start == bits) {
             return Ok(*known);
         }
