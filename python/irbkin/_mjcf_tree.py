@@ -51,7 +51,8 @@ class Tree:
 
     def urdf(self, root: int, name: str) -> str:
         """The text of what hangs on a body; what floats is no part of an arm."""
-        model, links = self.model, {root: self.bodies[root]}
+        model = self.model
+        links = {root: self.bodies[root]}
         parts = [f'<robot version="1.1" name={quoteattr(name)}>']
         parts.append(f"<link name={quoteattr(links[root])}/>")
         for body in range(root + 1, model.nbody):
@@ -67,30 +68,42 @@ class Tree:
 
     def _body(self, parent: str, body: int) -> list[str]:
         """A body behind its joints."""
-        model, own, parts = self.model, self.bodies[body], []
-        xyz, quat = model.body_pos[body], model.body_quat[body]
-        step, turn, first = np.zeros(3), np.zeros(4), model.body_jntadr[body]
+        model = self.model
+        own = self.bodies[body]
+        parts = []
+        xyz = model.body_pos[body]
+        quat = model.body_quat[body]
+        # Written by MuJoCo.
+        step = np.zeros(3)
+        turn = np.zeros(4)
+        first = model.body_jntadr[body]
         for joint, kind in enumerate(self.kinds[body], first):
-            point, axis, name = model.jnt_pos[joint], model.jnt_axis[joint], self.joints[joint]
+            point = model.jnt_pos[joint]
+            axis = model.jnt_axis[joint]
+            name = self.joints[joint]
             mujoco.mju_rotVecQuat(step, point, quat)
             xyz = xyz + step
             if kind == "revolute":
                 mujoco.mju_axisAngle2Quat(turn, axis, -model.qpos0[model.jnt_qposadr[joint]])
-                quat, before = np.zeros(4), quat
-                mujoco.mju_mulQuat(quat, before, turn)
+                turned = np.zeros(4)
+                mujoco.mju_mulQuat(turned, quat, turn)
+                quat = turned
                 kind = kind if model.jnt_limited[joint] else "continuous"
             is_last = joint - first == len(self.kinds[body]) - 1 and not point.any()
             child = own if is_last else f"{own} behind {name}"
             limits = model.jnt_range[joint]
             parts.append(_joint(kind, name, parent, child, xyz, quat, axis, limits))
-            parent, xyz, quat = child, -point, np.array([1.0, 0.0, 0.0, 0.0])
+            parent = child
+            xyz = -point
+            quat = np.array([1.0, 0.0, 0.0, 0.0])
         if parent != own:
             parts.append(_joint("fixed", f"to {own}", parent, own, xyz, quat))
         return parts
 
     def couplings(self) -> list[tuple[str, list[str]]]:
         """Equalities and tendons, each with the joints that it makes depend on each other."""
-        model, found = self.model, []
+        model = self.model
+        found = []
         tendons = set(np.flatnonzero(model.tendon_limited))
         for index in np.flatnonzero(model.eq_active0):
             ends = [it for it in (model.eq_obj1id[index], model.eq_obj2id[index]) if it >= 0]

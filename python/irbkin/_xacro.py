@@ -49,12 +49,13 @@ def expand(text: str, file: str | None, args: dict[str, str], folders: dict[str,
     from xacrodoc import XacroDoc, packages
 
     above = [] if file is None else Path(file).resolve().parents
-    known, parse = packages.get_path, xacro.parse
+    get_path = packages.get_path
+    parse = xacro.parse
 
     def find(name: str) -> str:
         beside = (str(folder / name) for folder in above if (folder / name).is_dir())
         try:
-            return str(known(name))
+            return str(get_path(name))
         except packages.PackageNotFoundError:
             if found := next(beside, None):
                 return found
@@ -83,7 +84,9 @@ def _fault(error: Any) -> Exception:
     from xacro.substitution_args import ArgException
     from xacrodoc.packages import PackageNotFoundError
 
-    words, cause, files = str(error), error, [it for it in xacro.filestack if it]
+    words = str(error)
+    files = [it for it in xacro.filestack if it]
+    cause = error
     while getattr(cause, "exc", None):
         cause = cause.exc
     if isinstance(cause, RecursionError | MemoryError):
