@@ -19,6 +19,7 @@ mod configuration;
 mod corrections;
 mod coupled;
 mod display;
+mod five_axes;
 mod follow;
 mod general;
 mod go;

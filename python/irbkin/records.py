@@ -126,6 +126,10 @@ class Reach(enum.Enum):
     """An arm in general, or one with an offset wrist, has no solution; how far the pose is out of
     reach is not known.
     """
+    TURNED = "turned"
+    """An arm of five axes reaches the pose only turned about axis 1 by more than its heading
+    tolerance.
+    """
 
 
 class SingularityMode(str, enum.Enum):

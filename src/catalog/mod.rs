@@ -14,7 +14,7 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
-    AnyRobot, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
+    AnyRobot, DhRow, JointAxis, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
 };
 use crate::report::ConfigurationRule;
 
@@ -30,7 +30,8 @@ const GOFA: &str = "CRB 15000-";
 pub struct CatalogArm {
     /// The maker's type name.
     pub name: &'static str,
-    /// "ABB", "Universal Robots", "Franka", "FANUC" or "UFACTORY".
+    /// "ABB", "Universal Robots", "Franka", "FANUC", "UFACTORY", "TheRobotStudio" or "Trossen
+    /// Robotics".
     pub maker: &'static str,
     /// Payload [kg], as its type name or the maker's data sheet has it; of several
     /// generations the least.
@@ -157,6 +158,32 @@ pub enum CatalogGeometry {
         /// alpha [deg], a [mm], d [mm], theta offset [deg].
         rows: Vec<[f64; 4]>,
     },
+    /// The joints of the maker's URDF, each in the frame of the one before.
+    Joints {
+        /// Position [mm], rotation about fixed x, y and z [deg], and the axis.
+        origins: Vec<([f64; 6], Vector3<f64>)>,
+        /// The tip in the frame of the last joint.
+        tip: [f64; 6],
+    },
+}
+
+/// The axes of joints, and the tip, in the base at zero joint angles.
+fn joint_axes(origins: &[([f64; 6], Vector3<f64>)], tip: [f64; 6]) -> (Vec<JointAxis>, Pose) {
+    let frame = |[x, y, z, roll, pitch, yaw]: [f64; 6]| {
+        let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_radians);
+        let position = Vector3::new(x, y, z) / 1e3;
+        Pose::from_parts(position.into(), Rotation3::from_euler_angles(roll, pitch, yaw))
+    };
+    let mut at = Pose::identity();
+    let mut axes = Vec::new();
+    for (origin, axis) in origins {
+        at *= frame(*origin);
+        axes.push(JointAxis {
+            direction: (at.rotation * axis).into(),
+            point: at.translation.vector.into(),
+        });
+    }
+    (axes, at * frame(tip))
 }
 
 /// The rows of a table in meters and radians.
@@ -243,6 +270,7 @@ impl AnyRobot {
     /// None for the arms of [`catalog`].
     pub fn from_catalog(arm: &CatalogArm) -> Result<Self, Error> {
         match arm.dof() {
+            5 => Robot::<5>::from_catalog(arm).map(Self::from),
             7 => Robot::<7>::from_catalog(arm).map(Self::from),
             _ => Robot::<6>::from_catalog(arm).map(Self::from),
         }
@@ -318,6 +346,11 @@ where
                 let rows = table(rows).ok_or_else(wrong_count)?;
                 let base = standing(xyz, turns);
                 Self::from_mdh(Mdh { base, rows, flange: Pose::identity() })?
+            }
+            CatalogGeometry::Joints { ref origins, tip } => {
+                let (axes, tip) = joint_axes(origins, tip);
+                let axes = <[JointAxis; N]>::try_from(axes).map_err(|_| wrong_count())?;
+                Self::from_mdh(Mdh::from_joint_axes(&axes, &tip)?)?
             }
         };
         let limits =

@@ -35,6 +35,8 @@ const ALIASES: &[(&str, &str)] = &[
     ("GoFa 10", "CRB 15000-10/1.52"),
     ("GoFa 12", "CRB 15000-12/1.27"),
     ("UFACTORY xArm 6", "xArm6"),
+    ("SO-ARM101", "SO-101"),
+    ("VX300", "ViperX 300"),
 ];
 
 pub(super) fn aliases(name: &'static str) -> impl Iterator<Item = &'static str> {

@@ -2,6 +2,8 @@
 
 use alloc::vec::Vec;
 
+use nalgebra::Vector3;
+
 use super::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
 
 const ARMS: &str = include_str!("arms.txt");
@@ -89,9 +91,26 @@ fn read_geometry(geometry: &mut CatalogGeometry, keyword: &str, values: &str) ->
         ("mdh", CatalogGeometry::Mdh(rows) | CatalogGeometry::StandingMdh { rows, .. }) => {
             *rows = values.split(", ").map(array).collect::<Option<_>>()?;
         }
+        ("joints", geometry) => {
+            let origins = values.split(", ").map(joint).collect::<Option<_>>()?;
+            *geometry = CatalogGeometry::Joints { origins, tip: [0.0; 6] };
+        }
+        ("tip", CatalogGeometry::Joints { tip, .. }) => *tip = array(values)?,
         _ => return None,
     }
     Some(())
+}
+
+/// The origin of a joint, and its axis: x, y or z.
+fn joint(text: &str) -> Option<([f64; 6], Vector3<f64>)> {
+    let (origin, axis) = text.rsplit_once(' ')?;
+    let axis = match axis {
+        "x" => Vector3::x(),
+        "y" => Vector3::y(),
+        "z" => Vector3::z(),
+        _ => return None,
+    };
+    Some((array(origin)?, axis))
 }
 
 fn fields(text: &str) -> impl Iterator<Item = &str> {

@@ -47,6 +47,8 @@ pub enum ModelFault {
     NoLimit { field: &'static str, index: usize, value: f64, none: f64 },
     #[error("snap is {value} rad, it must be 0 to {bound:e} rad")]
     Snap { value: f64, bound: f64 },
+    #[error("heading_tolerance is {value} rad, it must be 0 to {bound} rad")]
+    HeadingTolerance { value: f64, bound: f64 },
     #[error("joint {joint} sign is {value}, it must be 1 or -1")]
     Sign { joint: usize, value: f64 },
     #[error("joint {joint} limit is empty: lower {lower} rad > upper {upper} rad")]

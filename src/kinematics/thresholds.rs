@@ -51,6 +51,16 @@ pub const SHOULDER_MERGE: f64 = 1.5e-9;
 /// one: below about 1e-7 rad from stretched, by the square root of rounding.
 pub const POSITION_ROUNDING: f64 = 1.5e-15;
 
+/// How far a pose may be turned about axis 1 for an arm of five axes to reach it, unless a caller
+/// says otherwise [rad]: text with six digits is inside.
+pub(crate) const HEADING_TOLERANCE: f64 = 1e-5;
+
+/// Sine of the angle between axes 1 and 5 of an arm of five axes
+///
+/// below which a pose does not determine the plane of the arm [1]: three times
+/// [`WRIST_FREE_SIN`], since base and tool rotate the pose.
+pub(crate) const UPRIGHT_SIN: f64 = 1.5e-14;
+
 /// How close to a singularity a seeded solve may keep the seed's value of the undetermined joint
 /// [rad, m]: the precision of the best poses met in practice.
 pub const SEEDED_FREE: f64 = 1e-12;

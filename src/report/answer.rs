@@ -26,6 +26,12 @@ pub enum Reach {
     /// The polynomial of an arm without a closed form has no real root. How far the pose is out of
     /// reach is not known.
     NoRoots,
+    /// An arm of five axes reaches the pose only if it is turned about axis 1 by more than the
+    /// heading tolerance.
+    Turned {
+        /// The least turn [rad].
+        error: f64,
+    },
 }
 
 impl Reach {
@@ -34,7 +40,7 @@ impl Reach {
     #[must_use]
     pub fn shortfall(self) -> f64 {
         match self {
-            Self::Reached => 0.0,
+            Self::Reached | Self::Turned { .. } => 0.0,
             Self::NoRoots => f64::NAN,
             Self::TooFar { shortfall } | Self::TooNear { shortfall } => shortfall,
         }
@@ -157,6 +163,11 @@ fn out_of_reach(reach: Reach) -> String {
     let by = millimeters(shortfall);
     match reach {
         Reach::NoRoots => NO_ROOTS.into(),
+        Reach::Turned { error } => format!(
+            "no heading within the tolerance: the arm reaches the pose turned about axis 1 by {} \
+             deg (heading_tolerance admits it)",
+            degrees(error)
+        ),
         Reach::TooNear { .. } => format!("wrist center {by} too near to be reached"),
         _ if shortfall > FAR_BEYOND => {
             format!(
@@ -170,6 +181,12 @@ fn out_of_reach(reach: Reach) -> String {
 /// The distance beyond reach from which a pose is taken for one in millimeters [m]: no arm of the
 /// catalog reaches 5 m, and its poses in millimeters are 100 m away and more.
 const FAR_BEYOND: f64 = 20.0;
+
+/// An angle in degrees, with three decimals or, below 0.001 deg, in scientific notation.
+fn degrees(angle: f64) -> String {
+    let degrees = angle.to_degrees();
+    if degrees >= 1e-3 { format!("{degrees:.3}") } else { format!("{degrees:.1e}") }
+}
 
 /// A length in mm, with a decimal from 0.1 mm on and in scientific notation below.
 fn millimeters(length: f64) -> String {

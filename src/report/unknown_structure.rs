@@ -59,7 +59,7 @@ impl PartialEq for UnknownStructure {
 
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 enum Reason {
-    #[error("it has {0} joints, the known structures have 6 or 7")]
+    #[error("it has {0} joints, the known structures have 5, 6 or 7")]
     JointCount(usize),
     /// How far the arm is off each condition; zero where it is met.
     #[error("for {}{}", .pattern.title, Missed(.pattern, .off))]

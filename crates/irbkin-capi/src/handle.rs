@@ -17,7 +17,7 @@ use crate::arguments::{array_mut, given, reference};
 use crate::fault::Fault;
 
 /// An arm of six or of seven joints.
-pub(crate) type Arms = ByJoints<Arm<6>, Arm<7>>;
+pub(crate) type Arms = ByJoints<Arm<6>, Arm<7>, Arm<5>>;
 
 /// A robot arm. It does not change: any threads may use it at the same time.
 pub struct IrbkinRobot(Marked<(Arms, CString)>);

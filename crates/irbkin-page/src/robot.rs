@@ -95,7 +95,8 @@ pub struct Hull {
 }
 
 /// The arm of six or of seven joints.
-pub(crate) type Arms = ByJoints<irbkin_motion::Arm<6>, irbkin_motion::Arm<7>>;
+pub(crate) type Arms =
+    ByJoints<irbkin_motion::Arm<6>, irbkin_motion::Arm<7>, irbkin_motion::Arm<5>>;
 
 /// The robot of a request.
 pub(crate) fn read(request: &Request<'_>) -> Result<Arms, Refusal> {

@@ -14,8 +14,8 @@ use irbkin::{JointLimits, Robot};
 use irbkin_motion::internal::check_most_near;
 use irbkin_motion::{Arm, Error};
 
-/// A robot of six or seven joints.
-pub(super) type SharedArm = ByJoints<Arc<Arm<6>>, Arc<Arm<7>>>;
+/// A robot of five, six or seven joints.
+pub(super) type SharedArm = ByJoints<Arc<Arm<6>>, Arc<Arm<7>>, Arc<Arm<5>>>;
 
 /// Evaluate one expression, which has as many joints, on either value of a [`ByJoints`].
 macro_rules! each {
@@ -23,10 +23,28 @@ macro_rules! each {
         match $either {
             $crate::arm::ByJoints::Six($inner) => $crate::arm::ByJoints::Six($body),
             $crate::arm::ByJoints::Seven($inner) => $crate::arm::ByJoints::Seven($body),
+            $crate::arm::ByJoints::Five($inner) => $crate::arm::ByJoints::Five($body),
         }
     };
 }
 pub(super) use each;
+
+/// Evaluate one expression on an arm that may have configurations: of six or seven joints.
+macro_rules! on_configured {
+    ($arm:expr, $inner:ident => $body:expr) => {
+        match $arm {
+            $crate::arm::ByJoints::Six($inner) => $body,
+            $crate::arm::ByJoints::Seven($inner) => $body,
+            $crate::arm::ByJoints::Five(arm) => return Err($crate::arm::no_configuration(arm)),
+        }
+    };
+}
+pub(super) use on_configured;
+
+pub(super) fn no_configuration(arm: &Robot<5>) -> PyErr {
+    let fault = ModelFault::NoConfiguration { structure: arm.structure(), snap: None };
+    exception(Error::from(fault))
+}
 
 /// The arm of the catalog with a name: each is made once, for a robot is frozen.
 pub(super) fn named(name: &str) -> Result<SharedArm, Error> {
@@ -56,8 +74,10 @@ where
 /// The robot of a call for a YuMi.
 pub(super) fn seven_joints(arm: &SharedArm) -> PyResult<&Arc<Arm<7>>> {
     match arm {
-        SharedArm::Six(_) => Err(exception(Error::from(ModelFault::NoArmAngle))),
         SharedArm::Seven(robot) => Ok(robot),
+        SharedArm::Five(_) | SharedArm::Six(_) => {
+            Err(exception(Error::from(ModelFault::NoArmAngle)))
+        }
     }
 }
 

@@ -180,6 +180,7 @@ impl PyCell {
         let rows = joints(robot.arm(), q)?;
         let mut answer = Output::<bool>::new(py, out, &rows.lead, &[rows.addresses()])?;
         match robot.arm() {
+            SharedArm::Five(_) => checked_joints::<5>("q", &rows).map(drop)?,
             SharedArm::Six(_) => checked_joints::<6>("q", &rows).map(drop)?,
             SharedArm::Seven(_) => checked_joints::<7>("q", &rows).map(drop)?,
         }

@@ -79,12 +79,19 @@ impl PyRobot {
                     robot.follow_until(path, seed, &options, interrupt)
                 })
             }
+            SharedArm::Five(robot) => {
+                let weights = read_weights(weights)?;
+                check_through(mode, singularity_mode)?;
+                follow(T, seed, out, threads, |path, seed, interrupt| {
+                    robot.follow_through(path, seed, &weights, interrupt)
+                })
+            }
             SharedArm::Seven(robot) => {
                 let weights = read_weights(weights)?;
                 let Some(six) = robot.six_turned().map_err(exception)? else {
                     check_through(mode, singularity_mode)?;
                     return follow(T, seed, out, threads, |path, seed, interrupt| {
-                        robot.follow_until(path, seed, &weights, interrupt)
+                        robot.follow_through(path, seed, &weights, interrupt)
                     });
                 };
                 let options = options(robot.others(&weights));
@@ -99,7 +106,7 @@ impl PyRobot {
     }
 }
 
-/// Check that seven joints are asked for no mode of a wrist's.
+/// Check that five or seven joints are asked for no mode of a wrist's.
 fn check_through(mode: SingularityMode, name: &str) -> PyResult<()> {
     if mode == SingularityMode::Through {
         return Ok(());

@@ -30,7 +30,7 @@ use irbkin_motion::Arm;
 ///     InvalidJointsError: A seed or weight that is not finite, a weight that is negative, or a
 ///         wrong shape.
 #[pyclass(name = "Follower", module = "irbkin")]
-pub(super) struct PyFollower(ByJoints<Steps<6>, Steps<7>>);
+pub(super) struct PyFollower(ByJoints<Steps<6>, Steps<7>, Steps<5>>);
 
 /// A follower that owns its robot.
 struct Steps<const N: usize> {

@@ -79,7 +79,7 @@ record! {
 ///     ValueError: Another `on_violation`.
 #[pyclass(name = "Guard", module = "irbkin.stream", frozen)]
 pub(super) struct PyGuard {
-    guard: ByJoints<Mutex<Guard<6>>, Mutex<Guard<7>>>,
+    guard: ByJoints<Mutex<Guard<6>>, Mutex<Guard<7>>, Mutex<Guard<5>>>,
     robot: Py<PyRobot>,
 }
 

@@ -1,6 +1,6 @@
 //! Methods of `irbkin.Robot` that take poses.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use numpy::PyArray1;
@@ -13,6 +13,7 @@ use super::arm::{ByJoints, SharedArm, on};
 use super::cell::PyCell;
 use super::errors::{exception, of_seed};
 use super::found::Found;
+use super::heading::{nearest_position, turning};
 use super::outputs::{Output, Pair, answer_row, pair};
 use super::records::{IkBatch, IkMargin, PoseCheck};
 use super::redundancy::{needed_q7, no_q7, one_angle, read_poses_with_q7};
@@ -34,6 +35,8 @@ impl PyRobot {
     ///     T: Pose of the tool, shape (4, 4), translation [m].
     ///     q7: Angle of joint 7 [rad], of an arm of seven joints; `robot.locked({3: 0.2}).ik(T)`
     ///         takes another joint.
+    ///     heading_tolerance: How far the pose may be turned about axis 1 [rad], 0 to pi, of an arm of
+    ///         five axes; the robot's `heading_tolerance`, 1e-5, when not given.
     ///
     /// Returns:
     ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -44,14 +47,22 @@ impl PyRobot {
     ///     InvalidJointsError: q7 is not finite.
     ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
     ///     TypeError: q7 is missing, or the arm has six joints and it is not.
-    #[pyo3(signature = (T, q7=None))]
+    #[pyo3(signature = (T, q7=None, *, heading_tolerance=None))]
     fn ik<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
+        heading_tolerance: Option<f64>,
     ) -> PyResult<Bound<'py, PySolutions>> {
         let py = T.py();
-        match self.arm() {
+        let turning = turning(self.arm(), heading_tolerance)?;
+        match turning.as_ref().unwrap_or(self.arm()) {
+            SharedArm::Five(robot) => {
+                no_q7(q7.is_some())?;
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
+                robot.ik_into(&mut found.solutions, f64::NAN).map_err(exception)?;
+                Bound::new(py, PySolutions { found: ByJoints::Five(found) })
+            }
             SharedArm::Six(robot) => {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
@@ -61,7 +72,7 @@ impl PyRobot {
             SharedArm::Seven(robot) => {
                 let angle = match (robot.locked_joint(), q7) {
                     (Some((_, angle)), None) => angle,
-                    (Some(_), Some(_)) => return Self::from(self.unlocked()?).ik(T, q7),
+                    (Some(_), Some(_)) => return Self::from(self.unlocked()?).ik(T, q7, None),
                     (None, q7) => one_angle(needed_q7(robot, q7)?, "q7")?,
                 };
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
@@ -82,6 +93,8 @@ impl PyRobot {
     ///     out: Where to write: an IkBatch or tuple of arrays (..., slots, n) float64 and (...,
     ///         slots) uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
+    ///     heading_tolerance: How far the pose may be turned about axis 1 [rad], 0 to pi, of an arm of
+    ///         five axes; the robot's `heading_tolerance`, 1e-5, when not given.
     ///
     /// Returns:
     ///     IkBatch(q, status): joint angles [rad], shape (..., slots, n), NaN where a slot is
@@ -94,17 +107,21 @@ impl PyRobot {
     ///     InvalidJointsError: q7 has a wrong shape.
     ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
     ///     TypeError: q7 is missing, or the arm has six joints and it is not.
-    #[pyo3(signature = (T, q7=None, *, out=None, threads=1))]
+    #[pyo3(signature = (T, q7=None, *, out=None, threads=1, heading_tolerance=None))]
     fn ik_batch<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         #[pyo3(from_py_with = read_threads)] threads: isize,
+        heading_tolerance: Option<f64>,
     ) -> PyResult<IkBatch> {
+        if let Some(turning) = turning(self.arm(), heading_tolerance)? {
+            return Self::from(turning).ik_batch(T, q7, out, threads, None);
+        }
         let is_locked = on!(self.arm(), robot => robot.locked_joint().is_some());
         if q7.is_some() && is_locked {
-            return Self::from(self.unlocked()?).ik_batch(T, q7, out, threads);
+            return Self::from(self.unlocked()?).ik_batch(T, q7, out, threads, None);
         }
         let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
         let (poses, angles) = read_poses_with_q7(arm, T, q7)?;
@@ -182,6 +199,10 @@ impl PyRobot {
     ///     threads: Number of threads; 0 for one a core.
     ///     cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
     ///         those that the search passes.
+    ///     heading_tolerance: How far the pose may be turned about axis 1 [rad], 0 to pi, of an arm of
+    ///         five axes; pi when not given.
+    ///     position_only: Of an arm of five axes, only the position of T, which may be of shape (3,):
+    ///         the roll stays as in `seed`, and the elevation as far as the arm reaches with it.
     ///
     /// Returns:
     ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose
@@ -193,7 +214,9 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
     ///         is not finite; a seed, or most of many, more than four turns outside the limits; a
     ///         single pose or seed for a whole batch that is invalid.
-    #[pyo3(signature = (T, seed=None, weights=None, *, out=None, threads=1, cell=None))]
+    #[pyo3(signature = (T, seed=None, weights=None, *, out=None, threads=1, cell=None,
+        heading_tolerance=None, position_only=false))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn ik_nearest<'py>(
         &self,
         T: &Bound<'py, PyAny>,
@@ -202,12 +225,21 @@ impl PyRobot {
         out: Option<&Bound<'py, PyAny>>,
         #[pyo3(from_py_with = read_threads)] threads: isize,
         cell: Option<&Bound<'py, PyCell>>,
+        heading_tolerance: Option<f64>,
+        position_only: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);
         let cell = cell.map(|cell| &cell.get().cell);
         let middle = |py| on!(self.arm(), robot => PyArray1::from_slice(py, &middle(robot)));
         let seed = seed.map_or_else(|| middle(py).into_any(), Bound::clone);
-        on!(self.arm(), robot => match read_seeded(T, &seed)? {
+        if position_only {
+            let given = cell.is_some() || heading_tolerance.is_some();
+            let q = nearest_position(self.arm(), T, &seed, weights, given)?;
+            return answer_row(T, out, &q);
+        }
+        let default = matches!(self.arm(), SharedArm::Five(_)).then_some(PI);
+        let turning = turning(self.arm(), heading_tolerance.or(default))?;
+        on!(turning.as_ref().unwrap_or(self.arm()), robot => match read_seeded(T, &seed)? {
             Seeded::One(pose, seed) => {
                 let weights = read_weights(weights)?;
                 check_near("seed", &seed, robot.limits(), &weights).map_err(exception)?;

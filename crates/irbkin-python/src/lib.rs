@@ -27,6 +27,7 @@ mod found;
 mod freedoms;
 mod go;
 mod guard;
+mod heading;
 mod inverse;
 mod meshes;
 mod models;

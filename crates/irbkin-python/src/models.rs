@@ -176,7 +176,7 @@ impl PyRobot {
         } else {
             text.map_or_else(|| read_file(text_or_path), Ok)?
         };
-        let read = || UrdfArm::read(text_of(&bytes)?, base, tip, &[6, 7])?.any_arm(snap);
+        let read = || UrdfArm::read_any(text_of(&bytes)?, base, tip)?.any_arm(snap);
         let arm = SharedArm::from(text_or_path.py().detach(read).map_err(exception)?);
         Ok(if name.is_empty() { arm } else { named(&arm, name)? }.into())
     }
@@ -270,7 +270,7 @@ impl PyRobot {
     }
 }
 
-/// A robot from a Denavit-Hartenberg table of 6 or 7 rows. An angle within `snap` of a multiple of
+/// A robot from a Denavit-Hartenberg table of 5 to 7 rows. An angle within `snap` of a multiple of
 /// 90 deg becomes one [rad].
 fn from_table(
     rows: &Bound<'_, PyAny>,
@@ -278,13 +278,13 @@ fn from_table(
     name: &str,
     (convention, snap): (Convention, f64),
 ) -> PyResult<PyRobot> {
-    let fits = |shape: &[usize]| matches!(shape, [6 | 7, 4]);
-    let rows = Rows::shaped(rows, || "(6, 4) or (7, 4)", "rows", Fault::Model, fits)?;
-    let arm = match rows.chunks::<4>()? {
-        rows @ [_, _, _, _, _, _] => {
-            robot_of_table::<6>(rows, convention, snap).map_err(exception)?.into()
-        }
-        rows => robot_of_table::<7>(rows, convention, snap).map_err(exception)?.into(),
+    let fits = |shape: &[usize]| matches!(shape, [5..=7, 4]);
+    let rows = Rows::shaped(rows, || "(5, 4), (6, 4) or (7, 4)", "rows", Fault::Model, fits)?;
+    let rows = rows.chunks::<4>()?;
+    let arm = match rows.len() {
+        5 => robot_of_table::<5>(rows, convention, snap).map_err(exception)?.into(),
+        6 => robot_of_table::<6>(rows, convention, snap).map_err(exception)?.into(),
+        _ => robot_of_table::<7>(rows, convention, snap).map_err(exception)?.into(),
     };
     named_and_limited(&arm, limits, name)
 }

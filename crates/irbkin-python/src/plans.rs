@@ -124,9 +124,9 @@ impl PyRobot {
         max_acceleration: Option<&Bound<'py, PyAny>>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<records::Plan> {
-        if redundancy.is_some() && matches!(self.arm(), SharedArm::Six(_)) {
+        if redundancy.is_some() && !matches!(self.arm(), SharedArm::Seven(_)) {
             return Err(PyTypeError::new_err(
-                "redundancy is for arms of seven joints: the pose alone determines the six of this \
+                "redundancy is for arms of seven joints: the pose alone determines those of this \
                  one",
             ));
         }

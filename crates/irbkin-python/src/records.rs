@@ -322,6 +322,7 @@ pub(super) fn reach(py: Python<'_>, reach: Reach) -> PyResult<Bound<'_, PyAny>> 
         Reach::TooFar { .. } => "TOO_FAR",
         Reach::TooNear { .. } => "TOO_NEAR",
         Reach::NoRoots => "NO_ROOTS",
+        Reach::Turned { .. } => "TURNED",
     })
 }
 

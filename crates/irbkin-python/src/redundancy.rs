@@ -57,7 +57,7 @@ pub(super) fn read_pair<'py>(
     arm: &SharedArm,
     given: &Bound<'py, PyAny>,
 ) -> PyResult<(usize, Bound<'py, PyAny>)> {
-    if matches!(arm, SharedArm::Six(_)) {
+    if !matches!(arm, SharedArm::Seven(_)) {
         return Err(PyTypeError::new_err(
             "given is for arms of seven joints: the pose alone determines the six of this one",
         ));
@@ -116,7 +116,7 @@ pub(super) fn read_poses_with_q7<'py>(
 ) -> PyResult<(Rows<'py>, Vec<f64>)> {
     on!(arm, robot => robot.check_structure()).map_err(exception)?;
     match arm {
-        SharedArm::Six(_) => no_q7(angles.is_some())?,
+        SharedArm::Five(_) | SharedArm::Six(_) => no_q7(angles.is_some())?,
         SharedArm::Seven(robot) if robot.locked_joint().is_none() => {
             needed_q7(robot, angles)?;
         }
@@ -136,7 +136,7 @@ pub(super) fn no_q7(given: bool) -> PyResult<()> {
         return Ok(());
     }
     Err(PyTypeError::new_err(
-        "q7 is joint 7 of an arm of seven joints: this one has six (for the solution nearest to a \
+        "q7 is joint 7 of an arm of seven joints: this one has fewer (for the solution nearest to a \
          seed take ik_nearest(T, seed))",
     ))
 }

@@ -47,7 +47,7 @@ impl<const N: usize> Member<N> {
 #[expect(clippy::unsafe_derive_deserialize, reason = "the unsafe methods are pyo3's")]
 #[pyclass(name = "Solution", module = "irbkin", eq, frozen, weakref, sequence)]
 pub(super) struct PySolution {
-    pub(super) of: ByJoints<Member<6>, Member<7>>,
+    pub(super) of: ByJoints<Member<6>, Member<7>, Member<5>>,
 }
 
 impl From<Member<6>> for PySolution {
@@ -59,6 +59,12 @@ impl From<Member<6>> for PySolution {
 impl From<Member<7>> for PySolution {
     fn from(member: Member<7>) -> Self {
         Self { of: ByJoints::Seven(member) }
+    }
+}
+
+impl From<Member<5>> for PySolution {
+    fn from(member: Member<5>) -> Self {
+        Self { of: ByJoints::Five(member) }
     }
 }
 
@@ -136,6 +142,16 @@ impl PySolution {
     #[getter]
     fn residual(&self) -> f64 {
         on!(&self.of, member => member.robot.residual(&member.solution.q, &member.pose).largest())
+    }
+
+    /// How far the pose is turned about axis 1, upwards, for an arm of five axes to reach it [rad],
+    /// in (-pi, pi]; 0 of other arms.
+    #[getter]
+    fn heading_error(&self) -> f64 {
+        match &self.of {
+            ByJoints::Five(member) => member.robot.heading_error(&member.solution.q, &member.pose),
+            ByJoints::Six(_) | ByJoints::Seven(_) => 0.0,
+        }
     }
 
     #[pyo3(signature = (dtype=None, copy=None))]

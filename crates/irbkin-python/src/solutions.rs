@@ -33,7 +33,7 @@ use irbkin::pose::to_rows as pose_to_rows;
 #[expect(clippy::unsafe_derive_deserialize, reason = "the unsafe methods are pyo3's")]
 #[pyclass(name = "Solutions", module = "irbkin", frozen, weakref, sequence, freelist = 8)]
 pub(super) struct PySolutions {
-    pub(super) found: ByJoints<Found<6>, Found<7>>,
+    pub(super) found: ByJoints<Found<6>, Found<7>, Found<5>>,
 }
 
 #[pymethods]

@@ -19,6 +19,7 @@ use crate::kinematics::chain::coupling::uncoupled;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::Pose;
+use crate::kinematics::thresholds::HEADING_TOLERANCE;
 
 /// `N` revolute joints between a base and a tool, described by a modified Denavit-Hartenberg table.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +33,8 @@ pub(crate) struct Chain<const N: usize> {
     tilts: Option<[(f64, f64); N]>,
     /// Factor of q2 in the controller's q3: 1, -1 or, without a coupling, zero.
     coupling: f64,
+    /// How far a pose may be turned about axis 1 for an arm of five axes to reach it [rad].
+    heading_tolerance: f64,
     t_world_first: Pose,
     t_last_tool: Pose,
 }
@@ -51,6 +54,7 @@ impl<const N: usize> Chain<N> {
             links,
             tilts,
             coupling: 0.0,
+            heading_tolerance: HEADING_TOLERANCE,
             t_world_first: Pose::identity(),
             t_last_tool: Pose::identity(),
         };
@@ -83,6 +87,13 @@ impl<const N: usize> Chain<N> {
         self
     }
 
+    /// Return the chain of an arm that reaches a pose turned about axis 1 by up to a tolerance [rad].
+    #[must_use]
+    pub(crate) fn with_heading_tolerance(mut self, tolerance: f64) -> Self {
+        self.heading_tolerance = tolerance;
+        self
+    }
+
     fn join(&mut self) {
         self.t_world_first = self.t_world_base * self.mdh.base;
         self.t_last_tool = self.mdh.flange * self.t_flange_tool;
@@ -110,6 +121,12 @@ impl<const N: usize> Chain<N> {
     #[must_use]
     pub(crate) fn coupling(&self) -> f64 {
         self.coupling
+    }
+
+    /// How far a pose may be turned about axis 1 for an arm of five axes to reach it [rad].
+    #[must_use]
+    pub(crate) fn heading_tolerance(&self) -> f64 {
+        self.heading_tolerance
     }
 
     /// The table's joint angles.

@@ -94,24 +94,41 @@ impl Robot<7> {
         seed: &[f64; 7],
         weights: &[f64; 7],
     ) -> Result<Followed<7>, Error> {
-        self.follow_until(path, seed, weights, Interrupt::none())
+        self.follow_through(path, seed, weights, Interrupt::none())
     }
+}
 
-    /// [`Robot::<7>::follow`] until it is interrupted.
-    #[doc(hidden)]
-    pub fn follow_until(
+impl Robot<5> {
+    /// Follow `path` with one continuous joint path inside the limits, starting from the solution
+    /// nearest to `seed` [rad]; headings are those of [`Robot::heading_tolerance`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
+    pub fn follow(
         &self,
         path: &[Pose],
-        seed: &[f64; 7],
-        weights: &[f64; 7],
-        interrupt: Interrupt<'_>,
-    ) -> Result<Followed<7>, Error> {
-        let how = (SingularityMode::Through, WRIST_ZONE);
-        self.follow_in_mode(path, [seed, weights], how, interrupt)
+        seed: &[f64; 5],
+        weights: &[f64; 5],
+    ) -> Result<Followed<5>, Error> {
+        self.follow_through(path, seed, weights, Interrupt::none())
     }
 }
 
 impl<const N: usize> Robot<N> {
+    /// [`Robot::<7>::follow`] until it is interrupted, of any number of joints.
+    #[doc(hidden)]
+    pub fn follow_through(
+        &self,
+        path: &[Pose],
+        seed: &[f64; N],
+        weights: &[f64; N],
+        interrupt: Interrupt<'_>,
+    ) -> Result<Followed<N>, Error> {
+        let how = (SingularityMode::Through, WRIST_ZONE);
+        self.follow_in_mode(path, [seed, weights], how, interrupt)
+    }
+
     /// Follow a path from a seed by weights, in a singularity mode with its zone.
     pub(super) fn follow_in_mode(
         &self,

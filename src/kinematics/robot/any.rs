@@ -8,7 +8,7 @@ use super::joints::{Count, Joints};
 use crate::error::Error;
 use crate::kinematics::answer::check::check_seed;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::known::{SEVEN_JOINTS, SIX_JOINTS, of_opw};
+use crate::kinematics::structure::known::{FIVE_JOINTS, SEVEN_JOINTS, SIX_JOINTS, of_opw};
 use crate::kinematics::structure::refined::Refined;
 
 /// A static, not a constant: what it names is compiled here, not in each crate that uses it.
@@ -24,6 +24,12 @@ static SIX: Count<Robot<6>, 6> = Count {
 
 impl Joints<6> for Robot<6> {
     const COUNT: &'static Count<Self, 6> = &SIX;
+}
+
+static FIVE: Count<Robot<5>, 5> = Count { known: FIVE_JOINTS, ..Count::CHAIN };
+
+impl Joints<5> for Robot<5> {
+    const COUNT: &'static Count<Self, 5> = &FIVE;
 }
 
 static SEVEN: Count<Robot<7>, 7> = Count {
@@ -44,11 +50,11 @@ macro_rules! chains {
         })+
     };
 }
-chains!(1 2 3 4 5 8 9 10 11 12);
+chains!(1 2 3 4 8 9 10 11 12);
 
-/// A robot of six or of seven joints, where a name or a file says which.
+/// A robot of five, six or seven joints, where a name or a file says which.
 ///
-/// The answers of the two have different sizes: match it to solve. A seven-axis arm takes its
+/// Their answers have different sizes: match it to solve. A seven-axis arm takes its
 /// redundancy parameter with it.
 ///
 /// ```
@@ -59,24 +65,27 @@ chains!(1 2 3 4 5 8 9 10 11 12);
 /// let found = match &robot {
 ///     AnyRobot::Six(robot) => robot.ik(&pose)?.len(),
 ///     AnyRobot::Seven(robot) => robot.ik_with(&pose, 0.6)?.len(),
+///     AnyRobot::Five(robot) => robot.ik(&pose)?.len(),
 /// };
 /// assert!(found > 0);
 /// # Ok::<(), irbkin::Error>(())
 /// ```
-pub type AnyRobot = ByJoints<Robot<6>, Robot<7>>;
+pub type AnyRobot = ByJoints<Robot<6>, Robot<7>, Robot<5>>;
 
-/// A value of an arm of six joints, or of one of seven.
+/// A value of an arm of five, six or seven joints.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum ByJoints<S, V> {
+pub enum ByJoints<S, V, F> {
     /// Six joints.
     Six(S),
     /// Seven joints.
     Seven(V),
+    /// Five joints.
+    Five(F),
 }
 
-/// Evaluate one expression on either value of a [`ByJoints`](crate::ByJoints).
+/// Evaluate one expression on the value of a [`ByJoints`](crate::ByJoints).
 #[doc(hidden)]
 #[macro_export]
 macro_rules! on {
@@ -84,29 +93,37 @@ macro_rules! on {
         match $either {
             $crate::ByJoints::Six($inner) => $body,
             $crate::ByJoints::Seven($inner) => $body,
+            $crate::ByJoints::Five($inner) => $body,
         }
     };
 }
 
-impl<S: From<Robot<6>>, V> From<Robot<6>> for ByJoints<S, V> {
+impl<S: From<Robot<6>>, V, F> From<Robot<6>> for ByJoints<S, V, F> {
     fn from(robot: Robot<6>) -> Self {
         Self::Six(robot.into())
     }
 }
 
-impl<S, V: From<Robot<7>>> From<Robot<7>> for ByJoints<S, V> {
+impl<S, V: From<Robot<7>>, F> From<Robot<7>> for ByJoints<S, V, F> {
     fn from(robot: Robot<7>) -> Self {
         Self::Seven(robot.into())
     }
 }
 
-impl<S, V> ByJoints<S, V> {
+impl<S, V, F: From<Robot<5>>> From<Robot<5>> for ByJoints<S, V, F> {
+    fn from(robot: Robot<5>) -> Self {
+        Self::Five(robot.into())
+    }
+}
+
+impl<S, V, F> ByJoints<S, V, F> {
     /// Number of joints.
     #[must_use]
     pub fn dof(&self) -> usize {
         match self {
             Self::Six(_) => 6,
             Self::Seven(_) => 7,
+            Self::Five(_) => 5,
         }
     }
 }

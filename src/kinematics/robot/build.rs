@@ -45,6 +45,21 @@ impl Robot<6> {
     }
 }
 
+impl Robot<5> {
+    /// Return the robot with another heading tolerance: how far a pose may be turned about axis 1 for
+    /// the arm to reach it, 0 to pi [rad]. Every solve, path and plan of the robot uses it; it is
+    /// 1e-5 rad unless it is set.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidModel`] when the tolerance is not 0 to pi.
+    pub fn with_heading_tolerance(mut self, tolerance: f64) -> Result<Self, Error> {
+        check_heading_tolerance(tolerance)?;
+        self.chain = self.chain.with_heading_tolerance(tolerance);
+        Ok(self.joined())
+    }
+}
+
 impl<const N: usize> Robot<N>
 where
     Self: Joints<N>,
@@ -125,12 +140,20 @@ where
     }
 }
 
+pub(super) fn check_heading_tolerance(value: f64) -> Result<(), Error> {
+    if (0.0..=PI).contains(&value) {
+        Ok(())
+    } else {
+        Err(ModelFault::HeadingTolerance { value, bound: PI }.into())
+    }
+}
+
 impl<const N: usize> Robot<N> {
-    /// Refuse an arm of six joints whose structure is unknown.
+    /// Refuse an arm of five or six joints whose structure is unknown.
     #[doc(hidden)]
     pub fn with_inverse(self) -> Result<Self, Error> {
         match self.unknown_structure() {
-            Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
+            Some(reason) if matches!(N, 5 | 6) => Err(ModelFault::UnknownStructure(reason).into()),
             _ => Ok(self),
         }
     }

@@ -15,7 +15,7 @@ use crate::kinematics::structure::known::Known;
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::report::Explanation;
 
-/// A robot of a number of joints that arms have: 1 to 12, of which 6 and 7 have an inverse.
+/// A robot of a number of joints that arms have: 1 to 12, of which 5, 6 and 7 have an inverse.
 ///
 /// Code that is generic over the number of joints needs it to build a robot, and for nothing else:
 /// `where Robot<N>: Joints<N>`. It is implemented here only.

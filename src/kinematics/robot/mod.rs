@@ -20,7 +20,9 @@ use alloc::boxed::Box;
 use alloc::sync::Arc;
 
 use joints::{Configured, Count, Redundancy};
-use nalgebra::SMatrix;
+#[cfg(not(feature = "std"))]
+use nalgebra::RealField as _;
+use nalgebra::{SMatrix, Vector3};
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
@@ -34,6 +36,7 @@ use crate::kinematics::chain::jacobian::{JacobianFrame, Jacobians};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::chain::singular_values::SingularValues;
 use crate::kinematics::pose::{Pose, PoseDifference};
+use crate::kinematics::structure::end_frames::EndFrames;
 use crate::kinematics::structure::inverse::Inverse;
 use crate::kinematics::structure::locked::LockedJoint;
 use crate::kinematics::structure::self_motions::{SelfMotions, SingularWrist};
@@ -394,5 +397,29 @@ impl<const N: usize> Robot<N> {
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
         self.inverse()?.jacobian_determinant(q)
+    }
+}
+
+impl Robot<5> {
+    /// How far a pose may be turned about axis 1 for the arm to reach it [rad].
+    #[must_use]
+    pub fn heading_tolerance(&self) -> f64 {
+        self.chain.heading_tolerance()
+    }
+
+    /// The turn of the tool at `q` from `pose` about axis 1, in its upward direction, in (-pi, pi]
+    /// [rad]: the nearest to their difference, and all of it for a solution.
+    #[must_use]
+    pub fn heading_error(&self, q: &[f64; 5], pose: &Pose) -> f64 {
+        let between = self.fk(q).rotation * pose.rotation.inverse();
+        let end_frames = self.inverse().and_then(Inverse::end_frames);
+        let axis = end_frames.map_or(Vector3::z(), EndFrames::up);
+        let turn = between.matrix();
+        let sine = Vector3::new(
+            turn[(2, 1)] - turn[(1, 2)],
+            turn[(0, 2)] - turn[(2, 0)],
+            turn[(1, 0)] - turn[(0, 1)],
+        );
+        sine.dot(&axis).atan2(turn.trace() - (axis.transpose() * turn * axis)[0])
     }
 }

@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::build::check_heading_tolerance;
 use super::{Definition, Joints, Robot, display};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::limits::JointLimits;
@@ -30,6 +31,9 @@ struct Stored<const N: usize> {
     /// The joint that is locked, from 1, and its angle [rad].
     #[serde(default)]
     locked: Option<(usize, f64)>,
+    /// Of an arm of five axes [rad].
+    #[serde(default)]
+    heading_tolerance: Option<f64>,
     /// The names of its joints in its file, and a remark on its tip.
     #[serde(default)]
     labels: Option<display::Labels>,
@@ -48,6 +52,7 @@ impl<const N: usize> Serialize for Robot<N> {
             max_velocity: self.max_velocity().map(|all| all.iter().map(finite).collect()),
             rule: self.own_rule(),
             locked: self.locked_joint(),
+            heading_tolerance: (N == 5).then(|| self.chain.heading_tolerance()),
             labels: self.labels.as_deref().cloned(),
         }
         .serialize(serializer)
@@ -69,6 +74,10 @@ where
 {
     fn build(self) -> Result<Robot<N>, Error> {
         let mut robot = Robot::of_definition(self.definition)?.with_rule(self.rule);
+        if let Some(tolerance) = self.heading_tolerance {
+            check_heading_tolerance(tolerance)?;
+            robot.chain = robot.chain.with_heading_tolerance(tolerance);
+        }
         if self.coupled {
             robot.check_linkage()?;
             robot = robot.with_coupling(true);

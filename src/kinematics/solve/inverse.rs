@@ -31,6 +31,21 @@ impl Robot<6> {
     }
 }
 
+impl Robot<5> {
+    /// Every joint vector that brings the tool to `pose`, turned about axis 1 by no more than
+    /// [`Robot::heading_tolerance`].
+    ///
+    /// Otherwise as [`Robot::<6>::ik`]; with a tool parallel to axis 1 the heading is exact.
+    /// Derivation: docs/theory/pan_roll.md.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::<6>::ik`].
+    pub fn ik(&self, pose: &Pose) -> Result<Solutions<5>, Error> {
+        self.ik_with(pose, None)
+    }
+}
+
 impl Robot<7> {
     /// Every joint vector that brings the tool to `pose` with joint 7 at `q7` [rad], or with the
     /// joint of [`Robot::locked`] at its angle where `q7` is `None`.

@@ -1,7 +1,11 @@
 //! The solution nearest to a seed, and the outcome of a search in a sentence.
 
+use core::f64::consts::PI;
+
+use nalgebra::{IsometryMatrix3, Rotation3, Unit, Vector3};
+
 use crate::error::Error;
-use crate::kinematics::answer::check::{check_seed_near, check_weights};
+use crate::kinematics::answer::check::{check_seed, check_seed_near, check_weights};
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
@@ -266,5 +270,64 @@ impl<const N: usize> Robot<N> {
             None if N == 7 => explanation,
             None => self.with_approach(explanation, solutions.pose()),
         }
+    }
+}
+
+impl Robot<5> {
+    /// The solution inside the limits that brings the tool to the point of `pose` and keeps the roll
+    /// of `seed`, with the elevation nearest to the seed's at which the arm reaches; of several the
+    /// nearest one. The rotation of `pose` is not regarded.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`].
+    pub fn ik_nearest_position(
+        &self,
+        pose: &Pose,
+        seed: &[f64; 5],
+        weights: &[f64; 5],
+    ) -> Result<Solution<5>, Error> {
+        /// Step of the elevation [rad].
+        const STEP: f64 = PI / 90.0;
+        /// Halvings of the step to the edge of reach: to 1e-13 rad.
+        const HALVINGS: u32 = 38;
+        check_seed("seed", seed)?;
+        let point = checked_pose(pose)?.translation;
+        let arm = self.clone().with_heading_tolerance(PI)?;
+        let at_seed = self.fk(seed).rotation;
+        let axis_2 = Unit::new_unchecked(self.link_frames(seed).0[1].rotation * Vector3::z());
+        let raised = |angle: f64| {
+            let rotation = Rotation3::from_axis_angle(&axis_2, angle) * at_seed;
+            arm.ik_nearest(&IsometryMatrix3::from_parts(point, rotation), seed, weights)
+        };
+        let level = raised(0.0);
+        if level.is_ok() {
+            return level;
+        }
+        // Not by the tolerances of reach and limits: from there the next call must get on.
+        let limits = self.limits().to_array();
+        let well_inside = |angle: f64| {
+            let found = raised(angle).ok()?;
+            let off = self.fk(&found.q).translation.vector - point.vector;
+            let is_inside =
+                found.q.iter().zip(limits).all(|(q, [low, high])| (low..=high).contains(q));
+            (is_inside && off.norm() <= meets(pose)).then_some(found)
+        };
+        for step in 1..=90 {
+            for side in [STEP, -STEP] {
+                let mut far = f64::from(step) * side;
+                let mut near = far - side;
+                let Some(mut best) = well_inside(far) else { continue };
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (near + far);
+                    match well_inside(middle) {
+                        Some(found) => (far, best) = (middle, found),
+                        None => near = middle,
+                    }
+                }
+                return Ok(best);
+            }
+        }
+        level
     }
 }

@@ -33,6 +33,11 @@ impl EndFrames {
         self.t_shoulder_world * pose * self.t_tool_wrist
     }
 
+    /// The direction of axis 1 in the world, upwards.
+    pub(crate) fn up(&self) -> Vector3<f64> {
+        self.t_shoulder_world.inverse_transform_vector(&Vector3::z())
+    }
+
     /// The tool center point of a pose in the shoulder frame, and the same point in the wrist
     /// frame.
     pub(crate) fn tool_point(&self, pose: &Pose) -> (Vector3<f64>, Vector3<f64>) {

@@ -9,6 +9,7 @@ use super::general::General;
 use super::inverse::{Inverse, Solved};
 use super::locked::{Locked, LockedJoint};
 use super::offset_wrist::OffsetWrist;
+use super::pan_roll::PanRoll;
 use super::solver::Solver;
 use super::spherical_shoulder::SphericalShoulder;
 use super::spherical_wrist::{OpwParameters, SphericalWrist};
@@ -34,6 +35,8 @@ pub(crate) const SIX_JOINTS: Known<6> = Known {
     closed_forms: &[measured::<SphericalWrist, 6, 8>, measured::<ThreeParallel, 6, 8>],
     others: &[measured::<OffsetWrist, 6, 16>, measured::<General, 6, 16>],
 };
+
+pub(crate) const FIVE_JOINTS: Known<5> = Known { closed_forms: &[PanRoll::measured], others: &[] };
 
 pub(crate) const SEVEN_JOINTS: Known<7> =
     Known { closed_forms: &[measured::<SphericalShoulder, 7, 8>], others: &[last_locked] };

@@ -21,6 +21,7 @@ pub(crate) mod known;
 pub(crate) mod lanes;
 pub(crate) mod locked;
 pub(crate) mod offset_wrist;
+pub(crate) mod pan_roll;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod refined;

@@ -5,7 +5,7 @@ use crate::error::Error;
 use irbkin::ByJoints;
 use irbkin::catalog::{CatalogArm, find};
 
-/// An arm of six or of seven joints, where a name or a file says which: match it to use it, as
+/// An arm of five, six or seven joints, where a name or a file says which: match it to use it, as
 /// [`AnyRobot`](irbkin::AnyRobot).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -14,6 +14,8 @@ pub enum AnyArm {
     Six(Arm<6>),
     /// Seven joints.
     Seven(Arm<7>),
+    /// Five joints.
+    Five(Arm<5>),
 }
 
 impl AnyArm {
@@ -33,6 +35,7 @@ impl AnyArm {
     /// None for the arms of [`catalog`](irbkin::catalog()).
     pub fn from_catalog(arm: &CatalogArm) -> Result<Self, Error> {
         match arm.dof() {
+            5 => Arm::from_catalog(arm).map(Self::Five),
             7 => Arm::from_catalog(arm).map(Self::Seven),
             _ => Arm::from_catalog(arm).map(Self::Six),
         }
@@ -44,27 +47,35 @@ impl AnyArm {
         match self {
             Self::Six(_) => 6,
             Self::Seven(_) => 7,
+            Self::Five(_) => 5,
         }
     }
 }
 
-impl<S: From<Arm<6>>, V> From<Arm<6>> for ByJoints<S, V> {
+impl<S: From<Arm<6>>, V, F> From<Arm<6>> for ByJoints<S, V, F> {
     fn from(arm: Arm<6>) -> Self {
         Self::Six(arm.into())
     }
 }
 
-impl<S, V: From<Arm<7>>> From<Arm<7>> for ByJoints<S, V> {
+impl<S, V: From<Arm<7>>, F> From<Arm<7>> for ByJoints<S, V, F> {
     fn from(arm: Arm<7>) -> Self {
         Self::Seven(arm.into())
     }
 }
 
-impl<S: From<Arm<6>>, V: From<Arm<7>>> From<AnyArm> for ByJoints<S, V> {
+impl<S, V, F: From<Arm<5>>> From<Arm<5>> for ByJoints<S, V, F> {
+    fn from(arm: Arm<5>) -> Self {
+        Self::Five(arm.into())
+    }
+}
+
+impl<S: From<Arm<6>>, V: From<Arm<7>>, F: From<Arm<5>>> From<AnyArm> for ByJoints<S, V, F> {
     fn from(arm: AnyArm) -> Self {
         match arm {
             AnyArm::Six(arm) => arm.into(),
             AnyArm::Seven(arm) => arm.into(),
+            AnyArm::Five(arm) => arm.into(),
         }
     }
 }

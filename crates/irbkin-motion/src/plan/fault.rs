@@ -104,6 +104,11 @@ pub enum PlanFault {
     ClosedEnd,
     #[error("cell and external axes do not go together: an axis moves the base; use accept")]
     CellMoves,
+    #[error(
+        "{field} is for arms of six or seven joints: a plan of five axes follows its poses within \
+         heading_tolerance, leave it out"
+    )]
+    FiveAxes { field: &'static str },
     #[error("times give the pace of the path: leave them out, or max_acceleration")]
     TimedTwice,
     #[error(

@@ -1,18 +1,18 @@
-//! A plan of seven joints that is a path of `follow`: it passes where the six joints are singular
-//! that a plan is searched with.
+//! A plan that is a path of `follow`: of seven joints where it passes a singularity of the six that a
+//! plan is searched with, and of five.
 
 use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::PI;
 
-use super::answer::{Plan, PlanError};
+use super::answer::{Plan, PlanError, StrandReason};
 use super::certificate::HALF;
 use super::options::PlanOptions;
 use super::tested::Tests;
 use crate::arm::Arm;
 use crate::error::Error;
 use crate::plan::thresholds::{CONTINUOUS_STEP, PLAN_END_OFF};
-use irbkin::follow::Follower;
+use irbkin::follow::{BreakReason, Follower};
 use irbkin::internal::thresholds::{EXAMINED_STEP, LIMIT_TOLERANCE};
 use irbkin::internal::{MOST_SLOTS, largest, steps};
 use irbkin::{Interrupt, Pose, Slot};
@@ -39,7 +39,11 @@ impl Arm<7> {
             return Ok(None);
         }
         for start in self.starts(&path[0], options)? {
-            let Some(q) = self.followed(path, &start, options, interrupt)? else { continue };
+            let Strand { q, end: None } =
+                self.followed(path, &start, &options.weights, interrupt)?
+            else {
+                continue;
+            };
             let plan = self.plan_along(&q, options);
             if self.meets_options(&q, &plan, options)
                 && self.is_continuous(path, &q, &options.weights)?
@@ -68,33 +72,47 @@ impl Arm<7> {
         }
         Ok(starts)
     }
+}
 
-    /// The joint vectors of a path followed from a start; `None` if it does not lead through.
-    fn followed(
+/// The joint vectors of the poses of a path from the first one on, and why there are no more.
+pub(super) struct Strand<const N: usize> {
+    pub(super) q: Vec<[f64; N]>,
+    pub(super) end: Option<StrandReason>,
+}
+
+impl<const N: usize> Arm<N> {
+    /// Follow a path from a start, as far as it goes without a jump.
+    pub(super) fn followed(
         &self,
         path: &[Pose],
-        start: &[f64; 7],
-        options: &PlanOptions<7>,
+        start: &[f64; N],
+        weights: &[f64; N],
         interrupt: Interrupt<'_>,
-    ) -> Result<Option<Vec<[f64; 7]>>, PlanError<7>> {
-        let mut follower = Follower::new(self, start, &options.weights)?;
+    ) -> Result<Strand<N>, PlanError<N>> {
+        let mut follower = Follower::new(self, start, weights)?;
         let mut q = Vec::with_capacity(path.len());
         for (index, pose) in path.iter().enumerate() {
             if interrupt.ends(index) {
                 return Err(PlanError::Stopped);
             }
-            let (Some(next), None) = follower.step(pose)? else { return Ok(None) };
-            q.push(next.q);
+            match follower.step(pose)? {
+                (Some(next), None) => q.push(next.q),
+                (_, Some(BreakReason::Unreachable(explanation))) => {
+                    let end = Some(StrandReason::Unreachable(explanation));
+                    return Ok(Strand { q, end });
+                }
+                _ => return Ok(Strand { q, end: Some(StrandReason::Ended) }),
+            }
         }
-        Ok(Some(q))
+        Ok(Strand { q, end: None })
     }
 
     /// Whether the arm goes from each pose to the next one without a jump.
-    fn is_continuous(
+    pub(super) fn is_continuous(
         &self,
         path: &[Pose],
-        q: &[[f64; 7]],
-        weights: &[f64; 7],
+        q: &[[f64; N]],
+        weights: &[f64; N],
     ) -> Result<bool, Error> {
         for (poses, ends) in path.windows(2).zip(q.windows(2)) {
             if !self.is_step([poses[0], poses[1]], [ends[0], ends[1]], weights, HALVINGS)? {
@@ -109,8 +127,8 @@ impl Arm<7> {
     fn is_step(
         &self,
         poses: [Pose; 2],
-        ends: [[f64; 7]; 2],
-        weights: &[f64; 7],
+        ends: [[f64; N]; 2],
+        weights: &[f64; N],
         halvings: u32,
     ) -> Result<bool, Error> {
         let whole = largest(&steps(&ends[0], &ends[1]));
@@ -133,8 +151,8 @@ impl Arm<7> {
         Ok(true)
     }
 
-    fn plan_along(&self, q: &[[f64; 7]], options: &PlanOptions<7>) -> Plan<7> {
-        let velocity = self.max_velocity().copied().unwrap_or([1.0; 7]);
+    pub(super) fn plan_along(&self, q: &[[f64; N]], options: &PlanOptions<N>) -> Plan<N> {
+        let velocity = self.max_velocity().copied().unwrap_or([1.0; N]);
         let times = options.times_of(q.len());
         let (mut cost, mut bottleneck) = (0.0, 0.0_f64);
         for (ends, times) in q.windows(2).zip(times.windows(2)) {
@@ -158,12 +176,17 @@ impl Arm<7> {
     }
 
     /// Whether ends and speeds are as they are asked for.
-    fn meets_options(&self, q: &[[f64; 7]], plan: &Plan<7>, options: &PlanOptions<7>) -> bool {
+    pub(super) fn meets_options(
+        &self,
+        q: &[[f64; N]],
+        plan: &Plan<N>,
+        options: &PlanOptions<N>,
+    ) -> bool {
         let is_slow = options.times.is_none()
             || self.max_velocity().is_none()
             || plan.bottleneck <= 1.0 + LIMIT_TOLERANCE;
         let end = if options.closed { Some(q[0]) } else { options.end };
-        let is_at = |wanted: Option<[f64; 7]>, q: &[f64; 7]| {
+        let is_at = |wanted: Option<[f64; N]>, q: &[f64; N]| {
             wanted.is_none_or(|wanted| largest(&steps(&wanted, q)) <= PLAN_END_OFF)
         };
         is_slow && is_at(options.start, &q[0]) && is_at(end, &q[q.len() - 1])

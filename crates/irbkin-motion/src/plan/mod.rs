@@ -43,6 +43,7 @@ mod work;
 // The plan: proven between the poses, refined and smoothed, or explained.
 mod banded;
 mod certificate;
+mod five;
 mod followed;
 mod planner;
 mod reasons;

@@ -103,7 +103,7 @@ impl<const N: usize> Default for PlanOptions<N> {
     }
 }
 
-impl PlanOptions {
+impl<const N: usize> PlanOptions<N> {
     /// Check what does not depend on the robot, for a path of `count` poses.
     pub(super) fn check(&self, count: usize) -> Result<(), Error> {
         check_weights(&self.weights)?;
@@ -125,7 +125,7 @@ impl PlanOptions {
         }
         if let Some(limits) = &self.max_acceleration {
             let field = "max_acceleration";
-            check_length(field, limits.len(), 6 + self.external.len())?;
+            check_length(field, limits.len(), N + self.external.len())?;
             check_limits(field, limits)?;
             if self.times.is_some() {
                 return Err(PlanFault::TimedTwice.into());

@@ -200,7 +200,10 @@ pub(super) fn waypoints(path: &[Pose], options: &PlanOptions) -> Vec<Waypoint> {
 }
 
 /// The poses of a path, checked; of a closed one, the last is the first.
-fn checked_path(path: &[Pose], options: &PlanOptions) -> Result<Vec<Pose>, Error> {
+pub(super) fn checked_path<const N: usize>(
+    path: &[Pose],
+    options: &PlanOptions<N>,
+) -> Result<Vec<Pose>, Error> {
     let mut checked = Vec::with_capacity(path.len());
     for (index, pose) in path.iter().enumerate() {
         checked.push(checked_pose(pose).map_err(|error| match error {

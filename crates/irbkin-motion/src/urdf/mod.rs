@@ -104,13 +104,13 @@ where
 }
 
 impl AnyArm {
-    /// The arm of six or seven joints between two links of a URDF; see [`Arm::from_urdf`].
+    /// The arm of five, six or seven joints between two links of a URDF; see [`Arm::from_urdf`].
     ///
     /// # Errors
     ///
     /// As [`Arm::from_urdf`].
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[6, 7])?.any_arm(None)
+        UrdfArm::read_any(text, base, tip)?.any_arm(None)
     }
 }
 
@@ -154,6 +154,13 @@ impl UrdfArm {
         })
     }
 
+    /// Read the chain of six or seven joints between two links or, if there is none, of five.
+    #[doc(hidden)]
+    pub fn read_any(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
+        Self::read(text, base, tip, &[6, 7])
+            .or_else(|error| Self::read(text, base, tip, &[5]).map_err(|_| error))
+    }
+
     /// Every link with shapes that moves with the chain, and a remark on those beside the chain.
     #[doc(hidden)]
     pub fn links(
@@ -161,14 +168,16 @@ impl UrdfArm {
         base: Option<&str>,
         tip: Option<&str>,
     ) -> Result<(Vec<Moving>, String), Error> {
-        let arm = Self::read(text, base, tip, &[6, 7])?;
+        let arm = Self::read_any(text, base, tip)?;
+        let count = [arm.joint_names.len()];
         let places = match arm.any_arm(None)? {
             AnyArm::Six(own) => places(&own, &arm.joints, None),
             AnyArm::Seven(own) => places(&own, &arm.joints, None),
+            AnyArm::Five(own) => places(&own, &arm.joints, None),
         };
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
-            let (base, chain, _) = chain_between(&tree, base, tip, &[6, 7])?;
+            let (base, chain, _) = chain_between(&tree, base, tip, &count)?;
             let carriers = carriers(&tree, base, &chain);
             let has_shapes = shaped(document.root_element(), &["collision", "visual"]);
             let remark = remark(&tree, &carriers, &has_shapes);
@@ -190,10 +199,11 @@ impl UrdfArm {
         self.joints.iter().filter_map(|joint| joint.motion.as_ref())
     }
 
-    /// As [`Self::arm`], of six or seven joints.
+    /// As [`Self::arm`], of five, six or seven joints.
     #[doc(hidden)]
     pub fn any_arm(&self, snap: Option<f64>) -> Result<AnyArm, Error> {
         match self.motions().count() {
+            5 => self.solved::<5>(snap).map(AnyArm::Five),
             7 => self.solved::<7>(snap).map(AnyArm::Seven),
             _ => self.solved::<6>(snap).map(AnyArm::Six),
         }

@@ -176,6 +176,7 @@ impl AnyArm {
         match self {
             Self::Six(arm) => arm.to_urdf(),
             Self::Seven(arm) => arm.to_urdf(),
+            Self::Five(arm) => arm.to_urdf(),
         }
     }
 
@@ -188,6 +189,7 @@ impl AnyArm {
         match self {
             Self::Six(arm) => arm.to_urdf_with_body(),
             Self::Seven(arm) => arm.to_urdf_with_body(),
+            Self::Five(arm) => arm.to_urdf_with_body(),
         }
     }
 }

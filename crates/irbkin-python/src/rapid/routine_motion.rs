@@ -8,7 +8,7 @@ use super::checked::Finding;
 use super::class::JointTarget;
 use super::module::{RapidModule, counted};
 use super::program::MotionMove;
-use crate::arm::{ByJoints, SharedArm, on};
+use crate::arm::{ByJoints, SharedArm, no_configuration, on, on_configured};
 use crate::arrays::vector;
 use crate::errors::{Fault, exception};
 use crate::outputs::{column, matrix, read_only};
@@ -54,7 +54,7 @@ pub(crate) struct PyRoutineMotion {
     /// The findings on moves, in order: a tuple of `Finding`.
     #[pyo3(get)]
     findings: Py<PyTuple>,
-    motion: ByJoints<RoutineMotion, RoutineMotion<7>>,
+    motion: ByJoints<RoutineMotion, RoutineMotion<7>, RoutineMotion<5>>,
     robot: Py<PyRobot>,
     module: Py<RapidModule>,
     options: Py<PyDict>,
@@ -109,11 +109,12 @@ pub(crate) fn motion(
     turn: Option<f64>,
 ) -> PyResult<PyRoutineMotion> {
     let arm = robot.get().arm();
-    on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
+    on_configured!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
     let given = MotionArguments { start, max_velocity, max_acceleration, step, turn };
     match arm {
         SharedArm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),
         SharedArm::Seven(arm) => made(robot, arm, module, routine, &given, ByJoints::Seven),
+        SharedArm::Five(arm) => Err(no_configuration(arm)),
     }
 }
 
@@ -132,7 +133,7 @@ fn made<'py, const N: usize>(
     module: &Bound<'py, RapidModule>,
     routine: Option<&str>,
     given: &MotionArguments<'_, 'py>,
-    of_joints: impl Fn(RoutineMotion<N>) -> ByJoints<RoutineMotion, RoutineMotion<7>>,
+    of_joints: impl Fn(RoutineMotion<N>) -> ByJoints<RoutineMotion, RoutineMotion<7>, RoutineMotion<5>>,
 ) -> PyResult<PyRoutineMotion> {
     let options = MotionOptions {
         start: given.start.map(read_start).transpose()?,
