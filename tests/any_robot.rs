@@ -1,22 +1,23 @@
-//! `AnyRobot` is the robot of six or seven joints that the name or the file says.
+//! `AnyRobot` is the robot of five, six or seven joints that the name or the file says.
 
 use irbkin::{AnyRobot, Robot, catalog};
 use irbkin_motion::{AnyArm, Error};
 
 #[test]
 fn each_arm_of_the_catalog_has_its_own_number_of_joints() {
-    let mut counts = [0; 2];
+    let mut counts = [0; 3];
     for arm in catalog() {
         let any = AnyRobot::named(arm.name).unwrap();
         let same = match arm.dof() {
+            5 => AnyRobot::from(Robot::<5>::named(arm.name).unwrap()),
             7 => AnyRobot::from(Robot::<7>::named(arm.name).unwrap()),
             _ => AnyRobot::from(Robot::<6>::named(arm.name).unwrap()),
         };
         assert_eq!(any, same);
         assert_eq!((any.dof(), any.name()), (arm.dof(), arm.name));
-        counts[any.dof() - 6] += 1;
+        counts[any.dof() - 5] += 1;
     }
-    assert!(counts[0] > 100 && counts[1] > 0, "{counts:?}");
+    assert!(counts[0] > 1 && counts[1] > 100 && counts[2] > 0, "{counts:?}");
     assert!(matches!(AnyRobot::named("IRB 9999"), Err(irbkin::Error::UnknownRobot(_))));
 }
 

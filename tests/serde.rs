@@ -48,6 +48,10 @@ fn robots_round_trip() {
         round_trips(&AnyRobot::from_catalog(&arm).unwrap());
         round_trips(&AnyArm::from_catalog(&arm).unwrap());
         match arm.dof() {
+            5 => {
+                let robot = Robot::<5>::from_catalog(&arm).unwrap();
+                round_trips_with_settings(&robot.with_heading_tolerance(0.5).unwrap());
+            }
             6 => round_trips_with_settings(&Robot::<6>::from_catalog(&arm).unwrap()),
             _ => round_trips_with_settings(&Robot::<7>::from_catalog(&arm).unwrap()),
         }

@@ -24,7 +24,7 @@ const MOST_ROOT_STEPS: usize = 32;
 #[derive(Clone, Copy)]
 pub(in crate::kinematics) struct SingularValues {
     pub(in crate::kinematics) least: f64,
-    /// The product of all six.
+    /// The product of all, at most six.
     pub(in crate::kinematics) product: f64,
 }
 
@@ -91,8 +91,12 @@ fn singular_values<const N: usize, const W: usize, const FUSED: bool>(
     cos: &[[f64; W]; N],
 ) -> [SingularValues; W] {
     let rows = jacobian_rows::<N, W, true, FUSED>(chain, JacobianFrame::Base, sin, cos);
-    let squares = Bidiagonal::of::<N, FUSED>(rows);
-    let (least, product) = (squares.least_root::<FUSED>(), squares.product());
+    let squares = if N < 6 {
+        Bidiagonal::of_few::<N, FUSED>(&rows)
+    } else {
+        Bidiagonal::of::<N, FUSED>(rows)
+    };
+    let (least, product) = (squares.least_root::<FUSED>(), squares.product(N));
     core::array::from_fn(|lane| SingularValues {
         least: least[lane].sqrt(),
         product: product[lane].sqrt(),
@@ -126,11 +130,30 @@ impl<const W: usize> Bidiagonal<W> {
         Self { diagonal, beside }
     }
 
-    /// `det(L^T L)`
+    /// Of fewer than six joints: of the transposed matrix, whose missing rows get a singular value
+    /// that is not the least.
     #[inline(always)]
-    fn product(&self) -> [f64; W] {
+    fn of_few<const N: usize, const FUSED: bool>(rows: &[[[f64; W]; N]; 6]) -> Self {
+        let mut transposed = [[[0.0; W]; 6]; 6];
+        let mut all = [0.0; W];
+        for (i, row) in rows.iter().enumerate() {
+            for (j, element) in row.iter().enumerate() {
+                transposed[j][i] = *element;
+                for lane in 0..W {
+                    all[lane] += element[lane] * element[lane];
+                }
+            }
+        }
+        let mut squares = Self::of::<6, FUSED>(transposed);
+        squares.diagonal[N..].fill(all);
+        squares
+    }
+
+    /// The product of the squares of the singular values of `joints` joints.
+    #[inline(always)]
+    fn product(&self, joints: usize) -> [f64; W] {
         let mut product = [1.0; W];
-        for squares in &self.diagonal {
+        for squares in self.diagonal.iter().take(joints) {
             for lane in 0..W {
                 product[lane] *= squares[lane];
             }

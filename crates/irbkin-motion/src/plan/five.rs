@@ -3,6 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::f64::consts::PI;
 
 use super::answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
 use super::followed::Strand;
@@ -41,6 +42,7 @@ impl Arm<5> {
         let path = checked_path(path, options)?;
         let mut search = Search {
             arm: self,
+            turning: self.clone().map(|robot| robot.with_heading_tolerance(PI))?,
             options,
             tests: Tests::new(self, options, accept)?,
             interrupt,
@@ -82,6 +84,8 @@ fn check_fixed(options: &PlanOptions<5>) -> Result<(), Error> {
 
 struct Search<'a, 'b> {
     arm: &'a Arm<5>,
+    /// The arm for poses on the way, whose headings nothing asks for.
+    turning: Arm<5>,
     options: &'a PlanOptions<5>,
     tests: Tests<'a, 'b, 5>,
     interrupt: Interrupt<'a>,
@@ -130,7 +134,7 @@ impl Search<'_, '_> {
         if strand.end.is_some() || q.is_empty() {
             return Ok(());
         }
-        if !self.arm.is_continuous(path, q, &self.options.weights)? {
+        if !self.turning.is_continuous(path, q, &self.options.weights)? {
             strand.end = Some(StrandReason::Ended);
         } else if !self.arm.meets_options(q, &self.arm.plan_along(q, self.options), self.options) {
             strand.end = Some(StrandReason::NotAtEnd);
