@@ -48,7 +48,7 @@ from pathlib import Path
 # wanted. pyo3 and numpy for size first save nothing; to fold equal functions (lld's icf) is not
 # tried. Programs of RAPID for size are 60 kB smaller, their checks 10 % slower: taken. What a
 # controller refuses when it loads a program, world zones and loads are 28 kB.
-MOST_BYTES = 5_700_000
+MOST_BYTES = 5_600_000
 
 SBOM = re.compile(r"irbkin-[^/]+\.dist-info/sboms/irbkin\.cyclonedx\.json")
 

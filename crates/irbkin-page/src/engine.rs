@@ -4,7 +4,8 @@ use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 
-use irbkin::on;
+use irbkin::internal::ModelFault;
+use irbkin::{Robot, on, on_configured};
 use irbkin_motion::cell::Cell;
 use serde::Serialize;
 use serde_json::Value;
@@ -26,6 +27,13 @@ pub struct Page {
     robot: Option<Arms>,
     cell: Cell,
     program: Option<Program>,
+}
+
+/// Evaluate one expression on an arm that may have configurations; refuse another.
+macro_rules! configured {
+    ($arm:expr, $inner:ident => $body:expr) => {
+        on_configured!($arm, $inner => $body, arm => Err(without_configuration(arm)))
+    };
 }
 
 /// The answer to a request that is not refused.
@@ -66,15 +74,17 @@ impl Page {
             "ik" => {
                 on!(self.robot()?, robot => ok(PoseSolutions::read(robot, &self.cell, request)?))
             }
-            "ik_target" => on!(self.robot()?, robot => ok(Meant::read(robot, request)?)),
+            "ik_target" => {
+                configured!(self.robot()?, robot => ok(Meant::read(robot, request)?))
+            }
             "check" => {
                 self.read_program(request)?;
                 let program = self.program()?;
-                on!(self.robot()?, robot => ok(Checked::of(robot, program, &self.cell, request)?))
+                configured!(self.robot()?, robot => ok(Checked::of(robot, program, &self.cell, request)?))
             }
             "motion" => {
                 self.read_program(request)?;
-                on!(self.robot()?, robot => ok(Motion::of(robot, self.program()?, request)?))
+                configured!(self.robot()?, robot => ok(Motion::of(robot, self.program()?, request)?))
             }
             other => Err(Refusal(format!(
                 "do is {:?}, it must be catalog, robot, cell, fk, ik, ik_target, check or motion",
@@ -104,6 +114,12 @@ impl Page {
 fn ok<T: Serialize>(ok: T) -> Result<String, Refusal> {
     serde_json::to_string(&Granted { ok })
         .map_err(|error| Refusal(format!("the answer cannot be written: {error}")))
+}
+
+/// Targets and programs of RAPID are of arms with configurations.
+fn without_configuration(arm: &Robot<5>) -> Refusal {
+    let fault = ModelFault::NoConfiguration { structure: arm.structure(), snap: None };
+    Refusal::from(irbkin::Error::from(fault))
 }
 
 /// The answer that refuses a request, in a sentence.

@@ -5,7 +5,9 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use core::f64::consts::PI;
 use irbkin::report::ConfigurationRule;
+
 use irbkin::{ByJoints, Error, catalog, on};
 use irbkin_motion::AnyArm;
 use irbkin_motion::body::{Body, LinkCapsule};
@@ -111,7 +113,11 @@ pub(crate) fn read(request: &Request<'_>) -> Result<Arms, Refusal> {
             return Err("there is a name and a urdf, it must be one of them".to_owned().into());
         }
     };
-    Ok(on!(Arms::from(arm), arm => placed(arm, request)?.into()))
+    Ok(match on!(Arms::from(arm), arm => placed(arm, request)?.into()) {
+        // A tool that is dragged keeps its position, whatever heading it takes.
+        Arms::Five(arm) => arm.map(|robot| robot.with_heading_tolerance(PI))?.into(),
+        arm => arm,
+    })
 }
 
 /// The robot with the tool and the base of a request, and with a body if it has none.

@@ -29,17 +29,15 @@ macro_rules! each {
 }
 pub(super) use each;
 
-/// Evaluate one expression on an arm that may have configurations: of six or seven joints.
-macro_rules! on_configured {
+/// Evaluate one expression on an arm that may have configurations; return the error of another.
+macro_rules! configured {
     ($arm:expr, $inner:ident => $body:expr) => {
-        match $arm {
-            $crate::arm::ByJoints::Six($inner) => $body,
-            $crate::arm::ByJoints::Seven($inner) => $body,
-            $crate::arm::ByJoints::Five(arm) => return Err($crate::arm::no_configuration(arm)),
-        }
+        irbkin::on_configured!($arm, $inner => $body, arm => {
+            return Err($crate::arm::no_configuration(arm));
+        })
     };
 }
-pub(super) use on_configured;
+pub(super) use configured;
 
 pub(super) fn no_configuration(arm: &Robot<5>) -> PyErr {
     let fault = ModelFault::NoConfiguration { structure: arm.structure(), snap: None };

@@ -98,6 +98,20 @@ macro_rules! on {
     };
 }
 
+/// Evaluate one expression on the value of an arm that may have configurations, of six or seven
+/// joints, and another one on an arm of five.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! on_configured {
+    ($either:expr, $inner:ident => $body:expr, $five:ident => $other:expr) => {
+        match $either {
+            $crate::ByJoints::Six($inner) => $body,
+            $crate::ByJoints::Seven($inner) => $body,
+            $crate::ByJoints::Five($five) => $other,
+        }
+    };
+}
+
 impl<S: From<Robot<6>>, V, F> From<Robot<6>> for ByJoints<S, V, F> {
     fn from(robot: Robot<6>) -> Self {
         Self::Six(robot.into())

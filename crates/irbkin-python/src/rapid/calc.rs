@@ -8,7 +8,7 @@ use super::class::{JointTarget, RobTarget, ToolData, WobjData};
 use super::module::RapidModule;
 use super::program::TargetTable;
 use super::values::{read, read_joint_target};
-use crate::arm::{SharedArm, on_configured};
+use crate::arm::{SharedArm, configured};
 use crate::configured::or_nearest;
 use crate::errors::{exception, with_attributes};
 use crate::outputs::{array, column};
@@ -60,7 +60,7 @@ pub(crate) fn calc_joint_t(
     let RobTarget(target) = read(target, "target")?;
     let (tool, wobj) = tool_and_wobj(arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
-    let joints = on_configured!(arm, robot => {
+    let joints = configured!(arm, robot => {
         rapid::calc_joint_t_or(robot, &target, tool, wobj, read_fallback(arm, fallback, seed)?)
     });
     joints.map(JointTarget).map_err(named)
@@ -92,7 +92,7 @@ pub(crate) fn calc_rob_t(
     let joints = read_joint_target(joints, arm.dof())?;
     let (tool, wobj) = tool_and_wobj(arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
-    let target = on_configured!(arm, robot => rapid::calc_rob_t(robot, &joints, tool, wobj));
+    let target = configured!(arm, robot => rapid::calc_rob_t(robot, &joints, tool, wobj));
     Ok(RobTarget(target.map_err(exception)?))
 }
 
@@ -122,8 +122,8 @@ pub(crate) fn calc_moves(
 ) -> PyResult<TargetTable> {
     let py = robot.py();
     let (arm, module) = (robot.get().arm(), &module.get().module);
-    on_configured!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
-    on_configured!(arm, robot => {
+    configured!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
+    configured!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
         table(py, &py.detach(|| rapid::calc_moves(robot, module, fallback)).map_err(exception)?)
     })
@@ -160,7 +160,7 @@ pub(crate) fn calc_targets(
     let (arm, module) = (robot.get().arm(), &module.get().module);
     let (tool, wobj) = tool_and_wobj(arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
-    on_configured!(arm, robot => {
+    configured!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
         let rows = py.detach(|| rapid::calc_targets(robot, module, tool, wobj, fallback));
         table(py, &rows.map_err(exception)?)
@@ -175,7 +175,7 @@ fn tool_and_wobj(
 ) -> PyResult<(Option<rapid::ToolData>, Option<rapid::WobjData>)> {
     let tool = tool.map(|tool| read(tool, "tool")).transpose()?.map(|ToolData(tool)| tool);
     let wobj = wobj.map(|wobj| read(wobj, "wobj")).transpose()?.map(|WobjData(wobj)| wobj);
-    on_configured!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
+    configured!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
     Ok((tool, wobj))
 }
 

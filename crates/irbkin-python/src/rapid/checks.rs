@@ -9,7 +9,7 @@ use pyo3::types::PyTuple;
 use super::checked::{Checked, CheckedMove, Finding};
 use super::class;
 use super::module::{RapidModule, close_names};
-use crate::arm::{SharedArm, no_configuration, on_configured};
+use crate::arm::{SharedArm, configured, no_configuration};
 use crate::bodies::Shapes;
 use crate::cell::PyCell;
 use crate::errors::{Fault, exception};
@@ -68,7 +68,7 @@ pub(crate) fn check<'py>(
     let context = module.get().context.iter().map(|other| other.bind(py).clone());
     let modules: Vec<_> = core::iter::once(module.clone()).chain(context).collect();
     let codes = codes.map(read_codes).transpose()?;
-    let found = on_configured!(robot.get().arm(), arm => {
+    let found = configured!(robot.get().arm(), arm => {
         let options = CheckOptions {
             codes: codes.as_deref(),
             motion: read_motion(max_velocity, step, turn)?,
@@ -152,7 +152,7 @@ pub(crate) fn check_program<'py>(
     });
     let tasks: Vec<_> = tasks.collect();
     let codes = codes.map(read_codes).transpose()?;
-    on_configured!(robot.get().arm(), arm => {
+    configured!(robot.get().arm(), arm => {
         let options = CheckOptions {
             codes: codes.as_deref(),
             motion: read_motion(max_velocity, step, turn)?,

@@ -8,7 +8,7 @@ use super::checked::Finding;
 use super::class::JointTarget;
 use super::module::{RapidModule, counted};
 use super::program::MotionMove;
-use crate::arm::{ByJoints, SharedArm, no_configuration, on, on_configured};
+use crate::arm::{ByJoints, SharedArm, configured, no_configuration, on};
 use crate::arrays::vector;
 use crate::errors::{Fault, exception};
 use crate::outputs::{column, matrix, read_only};
@@ -109,7 +109,7 @@ pub(crate) fn motion(
     turn: Option<f64>,
 ) -> PyResult<PyRoutineMotion> {
     let arm = robot.get().arm();
-    on_configured!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
+    configured!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
     let given = MotionArguments { start, max_velocity, max_acceleration, step, turn };
     match arm {
         SharedArm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),

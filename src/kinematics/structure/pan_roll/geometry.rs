@@ -40,14 +40,17 @@ impl Geometry {
     pub(super) fn measure(mdh: &Mdh<5>) -> Result<Self, UnknownStructure> {
         let rows = &mdh.rows;
         let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
-        let [f1, f2, f3, f4, f5] = chain.link_frames(&[0.0; 5]).0.map(|pose| JointFrame::of(&pose));
+        let (frames, flange) = chain.link_frames(&[0.0; 5]);
+        let [f1, f2, f3, f4, f5] = frames.map(|pose| JointFrame::of(&pose));
 
-        // The shoulder: z up, y to the side of the wrist.
+        // The shoulder: z up, x to where the flange is.
         let sign_1 = if f1.z.z < -FORM_TOLERANCE { -1.0 } else { 1.0 };
         let up = f1.z * sign_1;
         let lateral =
             rows[1].d + sign_of(f3.z.dot(&f2.z)) * rows[2].d + sign_of(f4.z.dot(&f2.z)) * rows[3].d;
-        let side = f2.z * sign_of(lateral);
+        let away = flange.translation.vector - f1.origin;
+        let sign = sign_of(f2.z.cross(&up).dot(&away));
+        let side = f2.z * sign;
         let forward = side.cross(&up);
         let [sign_2, sign_3, sign_4] = [&f2, &f3, &f4].map(|frame| sign_of(frame.z.dot(&side)));
 
@@ -72,7 +75,7 @@ impl Geometry {
         let mut t_base_shoulder = rotation_pose(axes(&forward, &side, &up));
         t_base_shoulder.translation.vector = f1.origin;
         Ok(Self {
-            planar: PlanarArm::new([rows[1].a * f1.x.dot(&forward), 0.0, lateral.abs(), c2, c3]),
+            planar: PlanarArm::new([rows[1].a * f1.x.dot(&forward), 0.0, sign * lateral, c2, c3]),
             below: rows[4].a * f4.x.dot(&down),
             joint_map: JointMap {
                 signs: [sign_1, sign_2, sign_3, sign_4, sign_5],

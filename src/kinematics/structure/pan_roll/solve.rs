@@ -217,17 +217,14 @@ impl Filling<'_> {
         // Both headings of the plane (eq. 153).
         let root = ((distance - beside.abs()) * (distance + beside.abs())).max(0.0).sqrt();
         let is_one = root <= (rounding * (2.0 * beside.abs() + rounding)).sqrt();
+        let turned = |reach: f64| {
+            let theta_1 = [reach * point.y - beside * point.x, reach * point.x + beside * point.y];
+            let heading = angle(turn(theta_1, plane));
+            Facing { theta_1, reach, wrist: reach - lever_ahead, heading, ..as_it_is }
+        };
         for (slots, reach) in [(base, root), (base + 2, -root)] {
-            let is_second = slots != base;
-            let facing = match exact.filter(|exact| is_one || (exact.reach < 0.0) == is_second) {
-                Some(exact) => exact,
-                None => {
-                    let theta_1 =
-                        [reach * point.y - beside * point.x, reach * point.x + beside * point.y];
-                    let heading = angle(turn(theta_1, plane));
-                    Facing { theta_1, reach, wrist: reach - lever_ahead, heading, ..as_it_is }
-                }
-            };
+            let is_there = |exact: &Facing| is_one || (exact.reach < 0.0) == (slots != base);
+            let facing = exact.filter(is_there).unwrap_or_else(|| turned(reach));
             if facing.heading.abs() > tolerance {
                 continue;
             }
