@@ -575,6 +575,7 @@ class Robot:
         "three parallel axes",
         "spherical shoulder",
         "offset wrist",
+        "pan, three parallel axes, roll",
         "general",
         "refined spherical wrist",
         "refined three parallel axes",
@@ -657,7 +658,13 @@ class Robot:
         *,
         threads: int = 1,
     ) -> Singularity: ...
-    def ik(self, T: npt.ArrayLike, q7: float | None = None) -> Solutions: ...
+    @property
+    def heading_tolerance(self) -> float | None: ...
+    def with_heading_tolerance(self, tolerance: float) -> Robot: ...
+    def heading_error(self, q: npt.ArrayLike, T: npt.ArrayLike) -> float: ...
+    def ik(
+        self, T: npt.ArrayLike, q7: float | None = None, *, heading_tolerance: float | None = None
+    ) -> Solutions: ...
     def ik_batch(
         self,
         T: npt.ArrayLike,
@@ -665,6 +672,7 @@ class Robot:
         *,
         out: IkBatch | tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
         threads: int = 1,
+        heading_tolerance: float | None = None,
     ) -> IkBatch: ...
     def ik_nearest(
         self,
@@ -675,6 +683,8 @@ class Robot:
         out: _Floats | None = None,
         threads: int = 1,
         cell: Cell | None = None,
+        heading_tolerance: float | None = None,
+        position_only: bool = False,
     ) -> _Floats: ...
     def margin(self, q: npt.ArrayLike, *, threads: int = 1) -> Margin: ...
     def ik_margin(
@@ -775,6 +785,8 @@ class Solution:
     def singularities(self) -> SingularityKind: ...
     @property
     def free_joint(self) -> FreeJoint | None: ...
+    @property
+    def heading_error(self) -> float: ...
     def with_free_joint(self, value: float) -> Solution: ...
     @property
     def status(self) -> Status: ...

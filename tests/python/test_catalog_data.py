@@ -134,7 +134,8 @@ def test_axis_3_of_a_linkage_tilts_the_forearm_less_than_half_a_turn(name):
 
 
 def test_filters_take_a_least_figure_or_a_pair():
-    names = irbkin.catalog()
+    # A figure that is not known meets no filter.
+    names = tuple(name for name in irbkin.catalog() if name != "SO-101")
     assert irbkin.catalog(reach=0, payload=0) == names
     assert irbkin.catalog(reach=(1.65, 1.65), payload=(12, 20)) == (
         "IRB 2600-12/1.65",

@@ -26,8 +26,11 @@ DUPLICATES = [
 
 
 def answers():
-    """Answers that differ from one another, of every outcome and both numbers of joints."""
+    """Answers that differ from one another, of every outcome and number of joints."""
     robot, ur, panda = Robot("IRB 2600-12/1.65"), Robot("UR5e"), Robot("Panda")
+    five = Robot("SO-101")
+    turned = five.fk([0.1, 0.2, 0.3, 0.4, 0.5])
+    turned[:3, :3] = turned[[1, 0, 2], :3] * [[-1], [1], [1]]
     general = Robot.from_mdh(robot.mdh + np.array([0.01, 0, 0, 0]))
     stretched = np.arctan2(0.115, 0.795) - np.pi / 2
     regular = robot.ik(robot.fk(REGULAR))
@@ -52,6 +55,7 @@ def answers():
         "UR, wrist": ur.ik(ur.fk([0.3, -1.2, 1.4, 0.5, 0.0, 0.7])),
         "general": general.ik(general.fk(REGULAR)),
         "general, too far": general.ik(move(9, 0, 0)),
+        "five, turned": five.ik(turned),
         "seven": seven,
         "seven, within limits": seven.within_limits(),
     }

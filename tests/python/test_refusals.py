@@ -143,7 +143,7 @@ JOINTS = [
     ("panda.locked({8: 0.2})", "given: there is no joint 8, it must be 1 to 7"),
 ]  # fmt: skip
 MODELS = [
-    ("Robot.from_mdh(np.zeros((6, 3)))", "rows must have shape (6, 4) or (7, 4), got (6, 3)"),
+    ("Robot.from_mdh(np.zeros((6, 3)))", "rows must have shape (5, 4), (6, 4) or (7, 4), got (6, 3)"),
     ("Robot.from_mdh(put(rows, (2, 0), nan))", "alpha of row 3 is NaN, it must be finite"),
     ("Robot.from_mdh(put(rows, (2, 3), inf))", "theta of row 3 is inf, it must be finite"),
     # The twist and the length of a standard row belong to the next row of a modified table.
@@ -346,9 +346,9 @@ def test_arguments_have_the_names_of_the_documentation():
     for call, names in {
         ROBOT.fk: "q out",
         ROBOT.jacobian: "q frame out",
-        ROBOT.ik: "T q7",
-        ROBOT.ik_batch: "T q7 out threads",
-        ROBOT.ik_nearest: "T seed weights out threads cell",
+        ROBOT.ik: "T q7 heading_tolerance",
+        ROBOT.ik_batch: "T q7 out threads heading_tolerance",
+        ROBOT.ik_nearest: "T seed weights out threads cell heading_tolerance position_only",
         ROBOT.with_tool: "T",
         ROBOT.with_limits: "limits",
     }.items():

@@ -40,7 +40,7 @@ def test_the_stub_has_every_structure():
     doc = " ".join(irbkin.Robot.structure.__doc__.split())
     literal = re.search(r"def structure\(.*?Literal\[(.*?)\]", STUB.read_text(), re.DOTALL)
     names = set(re.findall(r'"([^"]+)"', doc))
-    assert len(names) == 8
+    assert len(names) == 9
     assert set(re.findall(r'"([^"]+)"', literal[1])) == names
     assert {irbkin.Robot(name).structure for name in irbkin.catalog()} < names
 

@@ -58,13 +58,13 @@ impl PyRobot {
         let turning = turning(self.arm(), heading_tolerance)?;
         match turning.as_ref().unwrap_or(self.arm()) {
             SharedArm::Five(robot) => {
-                no_q7(q7.is_some())?;
+                no_q7(self.arm(), q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.ik_into(&mut found.solutions, f64::NAN).map_err(exception)?;
                 Bound::new(py, PySolutions { found: ByJoints::Five(found) })
             }
             SharedArm::Six(robot) => {
-                no_q7(q7.is_some())?;
+                no_q7(self.arm(), q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.ik_into(&mut found.solutions, f64::NAN).map_err(exception)?;
                 Bound::new(py, PySolutions { found: ByJoints::Six(found) })

@@ -50,7 +50,7 @@ impl PyRobot {
     ///
     /// Args:
     ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too,
-    ///         shape (6, 4) or (7, 4).
+    ///         shape (5, 4), (6, 4) or (7, 4).
     ///     limits: As of `from_mdh`.
     ///     name: As of `from_mdh`.
     ///     snap: As of `from_mdh`.
@@ -139,7 +139,7 @@ impl PyRobot {
     ///         is a program. Of a text that others send give bytes, which name no file.
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
-    ///         or seven joints, if the last of these can be no gripper's; of several on one link
+    ///         or seven joints, or else of five, if the last of these can be no gripper's; of several on one link
     ///         the first named tool0, tcp, flange or grasp.
     ///     name: A name of your own; the URDF's when not given.
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made

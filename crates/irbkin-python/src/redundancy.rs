@@ -116,7 +116,7 @@ pub(super) fn read_poses_with_q7<'py>(
 ) -> PyResult<(Rows<'py>, Vec<f64>)> {
     on!(arm, robot => robot.check_structure()).map_err(exception)?;
     match arm {
-        SharedArm::Five(_) | SharedArm::Six(_) => no_q7(angles.is_some())?,
+        SharedArm::Five(_) | SharedArm::Six(_) => no_q7(arm, angles.is_some())?,
         SharedArm::Seven(robot) if robot.locked_joint().is_none() => {
             needed_q7(robot, angles)?;
         }
@@ -130,15 +130,16 @@ pub(super) fn read_poses_with_q7<'py>(
     Ok((poses, angles))
 }
 
-/// An arm of six joints has no joint 7.
-pub(super) fn no_q7(given: bool) -> PyResult<()> {
+/// An arm of five or six joints has no joint 7.
+pub(super) fn no_q7(arm: &SharedArm, given: bool) -> PyResult<()> {
     if !given {
         return Ok(());
     }
-    Err(PyTypeError::new_err(
-        "q7 is joint 7 of an arm of seven joints: this one has fewer (for the solution nearest to a \
-         seed take ik_nearest(T, seed))",
-    ))
+    let count = if arm.dof() == 5 { "five" } else { "six" };
+    Err(PyTypeError::new_err(format!(
+        "q7 is joint 7 of an arm of seven joints: this one has {count} (for the solution nearest to \
+         a seed take ik_nearest(T, seed))"
+    )))
 }
 
 /// The angle of one joint [rad]; a seed is not one.

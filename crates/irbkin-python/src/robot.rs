@@ -108,7 +108,7 @@ impl PyRobot {
     }
 
     /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", "offset
-    /// wrist", or "general" for any other; "refined spherical wrist" or "refined three parallel
+    /// wrist", "pan, three parallel axes, roll", or "general" for any other; "refined spherical wrist" or "refined three parallel
     /// axes" after `with_nominal`; "unknown" if the first six joints are not independent.
     /// `print(robot)` shows what keeps the arm from a structure with a closed form, which is
     /// faster, and a `snap` or another reading of its table that would give it one.
