@@ -1,7 +1,7 @@
 """A first base and tool, of a robot that stands or holds something else than assumed: closed forms.
 
 With flange frames F_i of the robot, measured poses M_i, base Z and tool X, M_i = Z F_i X
-(docs/guide/calibrate.md, eq. 10 to 13).
+(docs/theory/calibrate.md, eq. 10 to 13).
 """
 
 import numpy as np

@@ -70,7 +70,7 @@ impl<const W: usize> Axes<W> {
     }
 
     /// Takes the frames on by `Rx(alpha) Tx(a) Ry(beta) Rz(theta + q) Tz(d)`, with the sines and
-    /// cosines of beta and q (docs/guide/calibrate.md, eq. 20 to 22).
+    /// cosines of beta and q (docs/theory/calibrate.md, eq. 20 to 22).
     #[inline(always)]
     pub(in crate::kinematics) fn advance_tilted<const FUSED: bool>(
         &mut self,

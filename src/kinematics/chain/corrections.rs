@@ -1,5 +1,5 @@
 //! The parameters of an arm that a calibration may correct, and the motion of the tool with each of
-//! them (docs/guide/calibrate.md, eq. 1 to 6).
+//! them (docs/theory/calibrate.md, eq. 1 to 6).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;

@@ -1,5 +1,5 @@
 //! Two nearly parallel axes, skew in both directions: as a table has them, with a common normal
-//! that may be far away, and with Hayati's rotation instead (docs/guide/calibrate.md, eq. 7 to 9,
+//! that may be far away, and with Hayati's rotation instead (docs/theory/calibrate.md, eq. 7 to 9,
 //! 20 to 22).
 
 #[cfg(not(feature = "std"))]

@@ -22,7 +22,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// Corrections of base and tool alone leave the structure as it is. Corrections of the table
     /// make an arm of general structure; corrections of two nearly parallel axes may put their
-    /// common normal far away (docs/guide/calibrate.md, section 2).
+    /// common normal far away (docs/theory/calibrate.md, section 2).
     ///
     /// # Errors
     ///
@@ -59,7 +59,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// `corrections` is where it is taken: [`Corrections::NONE`] at the robot as it is. Column
     /// `theta` of a row is the column of its joint in [`Robot::jacobian`], if axes 2 and 3 are not
-    /// coupled. Derivation: docs/guide/calibrate.md, eq. 2 to 6.
+    /// coupled. Derivation: docs/theory/calibrate.md, eq. 2 to 6.
     ///
     /// # Errors
     ///
@@ -90,7 +90,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// Slots belong to the nominal arm. The answer is not complete: a pair of branches that the
     /// nominal arm has not is not seen, next to a fold. A branch whose refinement fails has its
-    /// slot flagged [`MERGED`](crate::Status::MERGED). Rates: docs/guide/calibrate.md, section 5.
+    /// slot flagged [`MERGED`](crate::Status::MERGED). Rates: docs/theory/calibrate.md, section 5.
     ///
     /// Base, tool, limits, velocities and a coupling of axes 2 and 3 belong to this robot.
     ///

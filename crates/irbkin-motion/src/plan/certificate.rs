@@ -1,5 +1,5 @@
 //! Whether an arm can go from node to node without a jump: the steps of a joint path are halved
-//! until they shrink, as `follow` does (docs/guide/plan.md, eq. 8).
+//! until they shrink, as `follow` does (docs/theory/plan.md, eq. 8).
 
 use alloc::vec;
 use alloc::vec::Vec;

@@ -123,7 +123,7 @@ impl<const N: usize> Arm<N> {
     }
 
     /// Whether a step is continuous: half way, the curve next to the mean of its ends has joints
-    /// between both; or else its halves are (docs/guide/plan.md, eq. 8).
+    /// between both; or else its halves are (docs/theory/plan.md, eq. 8).
     fn is_step(
         &self,
         poses: [Pose; 2],

@@ -1,4 +1,4 @@
-//! Axes that are free at each pose of a path besides the joints (docs/guide/plan.md, eq. 1).
+//! Axes that are free at each pose of a path besides the joints (docs/theory/plan.md, eq. 1).
 
 use alloc::vec::Vec;
 

@@ -24,7 +24,7 @@ const HALF_FREE_TURNS: f64 = 64.0;
 /// Turns of a joint from which its limits are wide: which turn it has costs nothing.
 const WIDE_TURNS: usize = 65;
 
-/// The joints of an arm in a plan (docs/guide/plan.md, eq. 2, 3).
+/// The joints of an arm in a plan (docs/theory/plan.md, eq. 2, 3).
 #[derive(Clone, Debug)]
 pub(super) struct PlannedJoints {
     /// The least and the greatest angle that count as inside [rad].
@@ -214,7 +214,7 @@ impl PlannedJoints {
     }
 }
 
-/// The cost of being near limits and near singularities [rad^2/s^2] (docs/guide/plan.md, eq. 4).
+/// The cost of being near limits and near singularities [rad^2/s^2] (docs/theory/plan.md, eq. 4).
 #[derive(Clone, Copy)]
 pub(super) struct NodeCost<'a> {
     robot: &'a Robot<6>,

@@ -1,5 +1,5 @@
 //! The layers of a path as a graph to search, and how far apart what is free at two neighboring
-//! poses needs to be searched (docs/guide/plan.md, eq. 7).
+//! poses needs to be searched (docs/theory/plan.md, eq. 7).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;

@@ -1,5 +1,5 @@
 //! The nodes of layers: inverse kinematics of everything that is free, in lanes
-//! (docs/guide/plan.md, eq. 1, 2).
+//! (docs/theory/plan.md, eq. 1, 2).
 
 use alloc::vec;
 use alloc::vec::Vec;

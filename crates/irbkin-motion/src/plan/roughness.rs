@@ -1,5 +1,5 @@
 //! The cost of a joint path whose free axes are off their grid: velocities, accelerations, walls
-//! (docs/guide/plan.md, section 5, eq. 9).
+//! (docs/theory/plan.md, section 5, eq. 9).
 
 use alloc::vec;
 use alloc::vec::Vec;

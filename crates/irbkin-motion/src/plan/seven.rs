@@ -1,5 +1,5 @@
 //! `Arm::plan` of seven joints: six of them are planned, and the last one is an external axis that
-//! turns the tool, or the first one is one that turns the arm (docs/guide/plan.md, eq. 1); or one
+//! turns the tool, or the first one is one that turns the arm (docs/theory/plan.md, eq. 1); or one
 //! is locked.
 
 use alloc::boxed::Box;

@@ -1,5 +1,5 @@
 //! Free axes along a joint path, smoothed: the search leaves them on a grid
-//! (docs/guide/plan.md, section 5).
+//! (docs/theory/plan.md, section 5).
 
 use alloc::vec;
 use alloc::vec::Vec;

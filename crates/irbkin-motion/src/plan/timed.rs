@@ -1,5 +1,5 @@
 //! Plans for the shortest timed motion: best joint paths of both orders, from each branch, timed
-//! (docs/guide/plan.md, section 5).
+//! (docs/theory/plan.md, section 5).
 
 use alloc::vec::Vec;
 

@@ -1,5 +1,5 @@
 //! How wide the windows of a search are: as wide as the costs found so far need, layer by layer
-//! where it looks (docs/guide/plan.md, eq. 7).
+//! where it looks (docs/theory/plan.md, eq. 7).
 
 use core::ops::RangeInclusive;
 

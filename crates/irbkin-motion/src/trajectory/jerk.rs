@@ -1,5 +1,5 @@
 //! The pace along a path whose jerk is limited too: the fastest one without, averaged over a window
-//! of time. The equations are in docs/guide/motion.md, section 3.
+//! of time. The equations are in docs/theory/motion.md, section 3.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;

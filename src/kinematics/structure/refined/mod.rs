@@ -1,5 +1,5 @@
 //! A calibrated arm by way of its nominal one: every branch of the nominal arm, brought onto the
-//! pose by Newton's method (docs/guide/calibrate.md, section 5).
+//! pose by Newton's method (docs/theory/calibrate.md, section 5).
 //!
 //! It finds the branches of the nominal arm. A pair of branches that the calibrated arm
 //! has and the nominal one has not is not seen: that happens next to folds.
