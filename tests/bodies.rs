@@ -14,6 +14,7 @@ fn body_of(robot: &AnyArm) -> &Body {
     match robot {
         AnyArm::Six(robot) => robot.body().unwrap(),
         AnyArm::Seven(robot) => robot.body().unwrap(),
+        AnyArm::Five(robot) => robot.body().unwrap(),
     }
 }
 
@@ -133,6 +134,7 @@ fn approximate_bodies_are_near_the_meshes() {
         let row = match &robot {
             AnyArm::Six(robot) => compared(robot),
             AnyArm::Seven(robot) => compared(robot),
+            AnyArm::Five(robot) => compared(robot),
         };
         rows.push((arm.name, row));
     }

@@ -9,11 +9,12 @@ use irbkin::catalog::{CatalogArm, CatalogGeometry, left_out};
 use irbkin_motion::AnyArm;
 
 /// Name of a table in the page, the columns that describe its geometry.
-const TABLES: [(&str, &[&str]); 5] = [
+const TABLES: [(&str, &[&str]); 6] = [
     ("abb", &["a1", "a2", "c1", "c2", "c3", "c4"]),
     ("universal robots", &["d1", "a2", "a3", "d4", "d5", "d6"]),
     ("franka", &[]),
     ("yumi", &[]),
+    ("five axes", &[]),
     ("offset wrists", &["d1", "a1", "a2", "a3", "d4", "d5", "a5", "d6"]),
 ];
 
@@ -40,6 +41,7 @@ fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
             _ => ("franka", Vec::new()),
         },
         CatalogGeometry::StandingMdh { .. } => ("yumi", Vec::new()),
+        CatalogGeometry::Joints { .. } => ("five axes", Vec::new()),
         _ => panic!("{} has no row", arm.name),
     }
 }
@@ -66,6 +68,7 @@ fn body(arm: &CatalogArm) -> String {
     let body = match &robot {
         AnyArm::Six(robot) => robot.body().unwrap(),
         AnyArm::Seven(robot) => robot.body().unwrap(),
+        AnyArm::Five(robot) => robot.body().unwrap(),
     };
     if body.is_approximate() {
         return "approximate".to_owned();

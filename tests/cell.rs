@@ -54,6 +54,7 @@ fn asked(cell: &Cell, robot: &AnyArm, q: &[f64]) -> (bool, f64) {
     match robot {
         AnyArm::Six(robot) => of(cell, robot, q),
         AnyArm::Seven(robot) => of(cell, robot, q),
+        AnyArm::Five(robot) => of(cell, robot, q),
     }
 }
 

@@ -81,6 +81,7 @@ fn a_posture_collides_where_its_distance_says_so() {
         let [free, colliding] = match robot {
             AnyArm::Six(robot) => each(robot, rng),
             AnyArm::Seven(robot) => each(robot, rng),
+            AnyArm::Five(robot) => each(robot, rng),
         };
         assert!(enough(free > 40 && colliding > 40), "{free} free, {colliding} not");
     });
@@ -123,6 +124,7 @@ fn a_gradient_is_the_slope_of_the_distance() {
         let compared = match robot {
             AnyArm::Six(robot) => gradients(robot, rng),
             AnyArm::Seven(robot) => gradients(robot, rng),
+            AnyArm::Five(robot) => gradients(robot, rng),
         };
         assert!(enough(compared > 20), "{compared} compared");
     });
@@ -197,6 +199,7 @@ fn a_motion_is_free_until_its_contact() {
         let [free, touching] = match robot {
             AnyArm::Six(robot) => paths(robot, rng),
             AnyArm::Seven(robot) => paths(robot, rng),
+            AnyArm::Five(robot) => paths(robot, rng),
         };
         assert!(enough(free > 4 && touching > 10), "{free} free, {touching} not");
     });
@@ -278,5 +281,6 @@ fn a_ball_that_a_link_passes_through_is_found() {
             refute(robot, rng);
             refute(&without_hulls(robot), rng);
         }
+        AnyArm::Five(robot) => refute(robot, rng),
     });
 }

@@ -150,6 +150,7 @@ fn the_core_of_a_hull_of_the_catalog_is_inside_of_it() {
         let body = match &robot {
             irbkin_motion::AnyArm::Six(robot) => robot.body().unwrap(),
             irbkin_motion::AnyArm::Seven(robot) => robot.body().unwrap(),
+            irbkin_motion::AnyArm::Five(robot) => robot.body().unwrap(),
         };
         assert_eq!(body.hulls().is_empty(), body.is_approximate(), "{}", arm.name);
         for own in body.hulls() {

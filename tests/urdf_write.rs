@@ -78,6 +78,10 @@ fn every_arm_of_the_catalog_is_read_back_with_its_solutions() {
                 assert_eq!(text, robot.to_urdf());
                 again(&robot);
             }
+            AnyArm::Five(robot) => {
+                assert_eq!(text, robot.to_urdf());
+                again(&robot);
+            }
         }
     }
 }

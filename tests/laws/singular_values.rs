@@ -17,21 +17,19 @@ const OFF: [f64; 8] = [0.0, 1e-170, 1e-145, 1e-17, 1e-12, 1e-9, 1e-7, 1e-4];
 /// singular value.
 fn hold<const N: usize>(robot: &Robot<N>, q: &[f64; N]) {
     let jacobian = robot.jacobian(q, JacobianFrame::Base);
-    // Columns of zeros change no singular value: there are six of fewer joints, too.
-    let mut padded = DMatrix::<f64>::zeros(6, N.max(6));
-    padded.columns_mut(0, N).copy_from(&jacobian);
-    let values = padded.singular_values();
+    let values = DMatrix::from_column_slice(6, N, jacobian.as_slice()).singular_values();
+    let least = values[values.len() - 1];
     let found = robot.singularity(q);
     let rounding = 8.0 * f64::EPSILON * values[0];
     assert!(
-        (found.min_singular_value - values[5]).abs() <= rounding,
+        (found.min_singular_value - least).abs() <= rounding,
         "{}, {q:?}: {} and {}",
         robot.name(),
         found.min_singular_value,
-        values[5]
+        least
     );
     let product = values.product();
-    let others: f64 = values.iter().take(5).map(|value| value + rounding).product();
+    let others: f64 = values.iter().rev().skip(1).map(|value| value + rounding).product();
     assert!(
         (found.manipulability - product).abs() <= 2.0 * rounding * others,
         "{}, {q:?}: {} and {product}",
@@ -81,7 +79,7 @@ fn they_are_those_of_a_full_decomposition() {
 fn an_arm_may_have_any_number_of_joints() {
     hold_near_singularities(&bent::<3>());
     hold_near_singularities(&bent::<9>());
-    assert!(bent::<3>().singularity(&[0.4; 3]).min_singular_value < 1e-15);
+    hold_near_singularities(&bent::<5>());
 }
 
 #[test]

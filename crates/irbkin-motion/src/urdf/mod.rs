@@ -157,8 +157,12 @@ impl UrdfArm {
     /// Read the chain of six or seven joints between two links or, if there is none, of five.
     #[doc(hidden)]
     pub fn read_any(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        Self::read(text, base, tip, &[6, 7])
-            .or_else(|error| Self::read(text, base, tip, &[5]).map_err(|_| error))
+        match Self::read(text, base, tip, &[6, 7]) {
+            Err(Error::InvalidUrdf(
+                UrdfFault::NoTip { most: 5, .. } | UrdfFault::JointCount { found: 5, .. },
+            )) => Self::read(text, base, tip, &[5]),
+            read => read,
+        }
     }
 
     /// Every link with shapes that moves with the chain, and a remark on those beside the chain.

@@ -163,7 +163,7 @@ impl<const N: usize> Written<'_, N> {
 
     /// Joint `i`, counted from zero, about z of a frame in its link.
     fn hinge(&self, i: usize, frame: &Pose, origin: Pose) -> Hinge {
-        let axis = frame.rotation.matrix().column(2).into_owned();
+        let axis = frame.rotation.matrix().column(2).normalize();
         let velocity = self.arm.max_velocity().map(|velocity| velocity[i]);
         Hinge { origin, axis, limits: self.arm.limits().to_array()[i], velocity }
     }
