@@ -27,8 +27,8 @@ def robot_of(
     meshes and textures are not read.
 
     Raises:
-        InvalidModelError: MuJoCo refuses it, no arm or several could be meant, or a joint slides,
-            is a ball or is coupled to another one.
+        InvalidModelError: MuJoCo refuses it, no arm or several could be meant, or a joint slides
+            behind another one, is a ball or is coupled to another one.
         OSError: The file cannot be read.
     """
     check_extra("Robot.from_mjcf", "mjcf", "mujoco")

@@ -1,6 +1,7 @@
 """A model of MuJoCo as a URDF of its bodies, sites and joints; runs in the process of the reader.
 
-A hinge turns by q - ref about a point of its body, the joints of a body one after the other
+A hinge turns by q - ref about a point of its body, a slide moves it by q - ref along its axis, the
+joints of a body one after the other
 (MuJoCo, engine_core_smooth.c, mj_kinematics).
 """
 
@@ -26,6 +27,7 @@ class Tree:
         sites = [model.site(it).name for it in range(model.nsite)]
         self.sites = [f"{it} (site)" if it in self.bodies else it for it in sites]
         self.kinds: list[list[str]] = [[] for _ in self.bodies]
+        self.coupled = {it for _, joints in self.couplings() for it in joints}
         for body, kind in zip(model.jnt_bodyid, model.jnt_type, strict=True):
             self.kinds[body].append(KINDS[kind])
 
@@ -83,15 +85,20 @@ class Tree:
             name = self.joints[joint]
             mujoco.mju_rotVecQuat(step, point, quat)
             xyz = xyz + step
+            zero = -model.qpos0[model.jnt_qposadr[joint]]
+            if kind == "prismatic":
+                kind = "coupled prismatic" if name in self.coupled else kind
+                mujoco.mju_rotVecQuat(step, zero * axis, quat)
+                xyz = xyz + step
             if kind == "revolute":
-                mujoco.mju_axisAngle2Quat(turn, axis, -model.qpos0[model.jnt_qposadr[joint]])
+                mujoco.mju_axisAngle2Quat(turn, axis, zero)
                 turned = np.zeros(4)
                 mujoco.mju_mulQuat(turned, quat, turn)
                 quat = turned
                 kind = kind if model.jnt_limited[joint] else "continuous"
             is_last = joint - first == len(self.kinds[body]) - 1 and not point.any()
             child = own if is_last else f"{own} behind {name}"
-            limits = model.jnt_range[joint]
+            limits = model.jnt_range[joint] if model.jnt_limited[joint] else (-np.inf, np.inf)
             parts.append(_joint(kind, name, parent, child, xyz, quat, axis, limits))
             parent = child
             xyz = -point

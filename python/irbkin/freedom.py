@@ -44,7 +44,8 @@ class ToolCone(NamedTuple):
 class Track(NamedTuple):
     """A linear track that carries the robot, as ABB's IRBT does.
 
-    The base stands at `x` times `axis` from where the robot has it. The poses stay where they are.
+    The base stands at `x` times `axis` from where the robot has it; along the rail of its own
+    `carrier`, from the rail's zero. The poses stay where they are.
     """
 
     axis: Literal["x", "y", "z"] | npt.ArrayLike

@@ -100,10 +100,12 @@ fn class_of_motion(error: &MotionError) -> Option<&'static str> {
         MotionError::Robot(error) => return class_of_robot(error),
         MotionError::InvalidPlan(PlanFault::Pose { .. }) => "InvalidPoseError",
         MotionError::InvalidMotion(MotionFault::Row { .. })
-        | MotionError::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
-            "InvalidJointsError"
-        }
-        MotionError::InvalidBody(_) | MotionError::InvalidUrdf(_) => "InvalidModelError",
+        | MotionError::InvalidPlan(
+            PlanFault::EndOff { .. } | PlanFault::EndOutside { .. } | PlanFault::Position { .. },
+        ) => "InvalidJointsError",
+        MotionError::InvalidPlan(PlanFault::NoCarrier)
+        | MotionError::InvalidBody(_)
+        | MotionError::InvalidUrdf(_) => "InvalidModelError",
         MotionError::InvalidMotion(_) | MotionError::InvalidPlan(_) => "InvalidMotionError",
         MotionError::NoMotion(_) | MotionError::Collides { .. } => "UnreachableError",
         _ => return None,

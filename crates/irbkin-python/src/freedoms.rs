@@ -120,7 +120,7 @@ pub(super) fn read_tolerance(tolerance: &Bound<'_, PyAny>) -> PyResult<ToolCone>
 }
 
 /// A class of `irbkin.freedom`.
-fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("irbkin.freedom")?.getattr(name)
 }
 

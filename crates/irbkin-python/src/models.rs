@@ -129,6 +129,9 @@ impl PyRobot {
     /// Robot from a URDF: the revolute and continuous joints between two links, with their limits
     /// and velocities, and a body of the collision shapes.
     ///
+    /// A prismatic joint before all of these is a rail or a lift, the robot's `carrier`. `base` is
+    /// then the link behind it, at the joint's zero or the limit nearest to it; `at` moves it.
+    ///
     /// Links behind joints beside the arm, as of a gripper, are in the body wherever these joints
     /// may be. With a mesh, or a shape that is not valid, there is no body. See
     /// docs/guide/bodies.md.
@@ -183,7 +186,8 @@ impl PyRobot {
 
     /// Robot from a MuJoCo model, MJCF: the hinge joints between two bodies, with their ranges.
     ///
-    /// The extra `mjcf` reads it. Meshes need not be there. See docs/guide/urdf.md.
+    /// A slide joint before these is a `carrier`, as of `from_urdf`. The extra `mjcf` reads the
+    /// file. Meshes need not be there. See docs/guide/urdf.md.
     ///
     /// Args:
     ///     path: A file, or a text that begins with "<".
@@ -253,7 +257,7 @@ impl PyRobot {
     /// Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
     /// `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 1e5 if unknown.
     /// A parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
-    /// See docs/guide/urdf.md.
+    /// A rail is not written: the base is where it is now. See docs/guide/urdf.md.
     ///
     /// Args:
     ///     visual: Whether links get the capsules of `body` as `visual` and `collision` elements, a

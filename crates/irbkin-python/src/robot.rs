@@ -9,8 +9,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arm::{SharedArm, changed, named, on};
-use super::arrays::vector;
+use super::arrays::{Rows, vector};
 use super::errors::{Fault, exception};
+use super::freedoms::{class, read_carrier};
 use super::outputs::read_only;
 use super::rapid::class::ToolData;
 use super::rapid::records::carried_tool;
@@ -213,7 +214,7 @@ impl PyRobot {
     }
 
     /// Return the robot with another base, in place of the one that it had; poses are then given in
-    /// the world.
+    /// the world. A rail moves and turns with the base, which stays at its position there.
     ///
     /// Args:
     ///     T: Pose of the base in the world, shape (4, 4), translation [m]; or its translation
@@ -224,6 +225,41 @@ impl PyRobot {
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         let base = read_frame(T, "with_base")?;
         on!(&self.arm, arm => Ok(changed(arm, |robot| robot.with_base(&base))?.into()))
+    }
+
+    /// The rail or lift that carries the base, an `irbkin.Track` for `plan`, of a robot whose URDF
+    /// or MJCF has a prismatic joint before all that turn; None of any other robot. `at` moves the
+    /// base along it.
+    #[getter]
+    fn carrier<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let Some(track) = on!(self.arm(), robot => robot.carrier()) else { return Ok(None) };
+        let [lower, upper] = track.range();
+        let [x, y, z] = track.direction().map(|part| part + 0.0);
+        let fields = ((x, y, z), lower, upper, track.steps(), track.max_velocity(), track.weight());
+        class(py, "Track")?.call1(fields).map(Some)
+    }
+
+    /// Return the robot with its base at a position on the rail or lift that carries it.
+    ///
+    /// Args:
+    ///     position: Where the file's joint is [m], within the limits of `carrier`, shape () or
+    ///         (1,), as a row of `Plan.external`.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: position is not finite or outside the limits, or has a wrong shape.
+    ///     InvalidModelError: The robot has no carrier: `with_base` moves it.
+    fn at(&self, position: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let fits = |shape: &[usize]| matches!(shape, [] | [1]);
+        let read = Rows::shaped(position, || "() or (1,)", "position", Fault::Joints, fits)?;
+        let moved = on!(&self.arm, arm => arm.at(read.data()?[0]).map(SharedArm::from));
+        Ok(moved.map_err(exception)?.into())
+    }
+
+    /// Return the robot as the work object sees it, with carriers at their values [m, rad].
+    fn _carried(&self, carrier: &Bound<'_, PyAny>, values: Vec<f64>) -> PyResult<Self> {
+        let axes = read_carrier(carrier)?;
+        let carried = on!(&self.arm, arm => arm.carried(&axes, values).map(SharedArm::from));
+        Ok(carried.map_err(exception)?.into())
     }
 
     /// Whether axes 2 and 3 are coupled, by a parallelogram linkage or by the controller: q3 is then
@@ -308,14 +344,14 @@ impl PyRobot {
     fn __repr__(&self) -> String {
         on!(&self.arm, robot => {
             if let Some((joint, angle)) = robot.locked_joint() {
-                let arm = SharedArm::from(Arm::from(robot.robot().clone().unlocked()));
+                let arm = self.unlocked().unwrap_or_else(|_| self.arm.clone());
                 return format!("{}.locked({{{joint}: {angle:?}}})", Self::from(arm).__repr__());
             }
             let name = robot.name();
             if named(name).is_ok_and(|named| named == self.arm) {
                 return format!("Robot({name:?})");
             }
-            let quoted = if name.is_empty() { String::new() } else { format!(" {name:?}") };
+            let label = if name.is_empty() { String::new() } else { format!(" {name:?}") };
             let coupled = if robot.is_coupled() { ", coupled" } else { "" };
             let snap = robot.missing_form().and_then(|missing| missing.helpful_snap());
             let snap = snap.map_or_else(String::new, |it| format!(" (by rounded angles: {it})"));
@@ -323,7 +359,9 @@ impl PyRobot {
             let remark = robot.tip_remark().map_or_else(String::new, |it| format!(", {it}"));
             let limits = robot.joint_names().and_then(|_| robot.limits_of_the_catalog());
             let limits = limits.map_or_else(String::new, |it| format!(", {it}"));
-            format!("<Robot{quoted}: {dof} joints, {structure}{snap}{coupled}{remark}{limits}>")
+            let rail = robot.carrier().map(|it| it.range());
+            let rail = rail.map_or_else(String::new, |[a, b]| format!(" on a rail of {a} to {b} m"));
+            format!("<Robot{label}{rail}: {dof} joints, {structure}{snap}{coupled}{remark}{limits}>")
         })
     }
 

@@ -28,13 +28,17 @@ def fixed(
 ) -> bytes:
     """The text with joints beside the arm, as of a gripper, fixed where they are given."""
     try:
-        moving = Robot.from_urdf(text, base, tip).joint_names or ()
+        arm = Robot.from_urdf(text, base, tip)
+        moving, rail = arm.joint_names, arm.carrier
     except InvalidModelError:
         # Without these joints there may be an arm.
-        moving = ()
+        moving, rail = (), None
     root = ElementTree.fromstring(_urdf_text(text))
     fix({attribute_of(it, "name"): it for it in root.findall("joint")}, joints, moving)
-    return ElementTree.tostring(root)
+    text = ElementTree.tostring(root)
+    if rail is not None and Robot.from_urdf(text, base, tip).carrier is None:
+        raise InvalidModelError("the rail or lift of the arm moves: leave its joint out")
+    return text
 
 
 def links_of(

@@ -71,7 +71,7 @@ def plan_targets(
         extax = plan.external * units
     axes = _external(np.shape(plan.external)[1], len(q), extax)
     targets = [
-        _core.calc_rob_t(_standing(robot, carriers, values), JointTarget.of(row, more), tool, wobj)
+        _core.calc_rob_t(robot._carried(carriers, values.tolist()), JointTarget.of(row, more), tool, wobj)
         for row, more, values in zip(q.tolist(), axes.tolist(), plan.external, strict=True)
     ]
     # Of a quaternion and its negative, the one nearer to the target before.
@@ -184,26 +184,6 @@ def _carriers(
     if len(carriers) != planned:
         raise RapidError(f"carrier has {len(carriers)} axes, plan.external has {planned}")
     return carriers
-
-
-def _standing(robot: Robot, carriers: Sequence[Track | Positioner], values: Floats) -> Robot:
-    """Return the robot at its place seen from the work object."""
-    if not carriers:
-        return robot
-    base = robot.base
-    # First along the tracks, then against the turns, from the axis on the floor on.
-    for one, value in sorted(
-        zip(carriers, values, strict=True), key=lambda pair: isinstance(pair[0], Positioner)
-    ):
-        axis = np.eye(3)["xyz".index(one.axis)] if isinstance(one.axis, str) else one.axis
-        axis = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
-        if isinstance(one, Track):
-            base = _core.pose(value * axis) @ base
-        else:
-            turn = _core.pose([0, 0, 0], [np.cos(value / 2), *(-np.sin(value / 2) * axis)])
-            point = np.asarray(one.point, dtype=float)
-            base = _core.pose(point) @ turn @ _core.pose(-point) @ base
-    return robot.with_base(base)
 
 
 def _external(planned: int, count: int, extax: npt.ArrayLike | None) -> Floats:

@@ -13,6 +13,7 @@ use core::ops::Deref;
 
 use crate::body::{Body, Outline, body_of};
 use crate::error::Error;
+use crate::plan::rail::Rail;
 use irbkin::catalog::{CatalogArm, find};
 use irbkin::{Corrections, Joints, Pose, Robot};
 
@@ -37,6 +38,8 @@ pub struct Arm<const N: usize> {
     body: Option<Arc<ArmBody>>,
     /// Why the shapes of its links make no body, if they do not; no part of its value.
     no_body: Option<Arc<str>>,
+    /// What its base slides on, if it does.
+    pub(crate) rail: Option<Rail>,
 }
 
 /// A body with its outline on an arm.
@@ -63,15 +66,15 @@ impl<const N: usize> Deref for Arm<N> {
 }
 
 impl<const N: usize> From<Robot<N>> for Arm<N> {
-    /// The robot without a body.
+    /// The robot without a body, on no rail.
     fn from(robot: Robot<N>) -> Self {
-        Self { robot, body: None, no_body: None }
+        Self { robot, body: None, no_body: None, rail: None }
     }
 }
 
 impl<const N: usize> PartialEq for Arm<N> {
     fn eq(&self, other: &Self) -> bool {
-        self.robot == other.robot && self.body() == other.body()
+        self.robot == other.robot && self.body() == other.body() && self.rail == other.rail
     }
 }
 
@@ -114,7 +117,7 @@ impl<const N: usize> Arm<N> {
     }
 
     /// Return the arm with a robot that `change` makes of its own, and the same body: with another
-    /// tool, base or limits, or with a locked joint.
+    /// tool, base or limits, or with a locked joint. A rail moves and turns with the base.
     ///
     /// # Errors
     ///

@@ -215,6 +215,11 @@ impl ExternalAxis {
         Self::new("track", Carried::Robot, direction, [lower, upper], steps)
     }
 
+    /// A rail of which a plan tries 21 places at first.
+    pub(crate) fn rail(direction: [f64; 3], range: [f64; 2], velocity: f64) -> Result<Self, Error> {
+        Self::track(direction, range[0], range[1], 21)?.with_max_velocity(velocity)
+    }
+
     /// An axis of a positioner that turns the work object about the line through `point` [m] along
     /// `direction`, by one of `steps` angles from `lower` to `upper` [rad]; at most 1 rad/s fast.
     ///
@@ -259,6 +264,8 @@ impl ExternalAxis {
             return Err(PlanFault::AxisVector { field, index, value }.into());
         }
         let steps = checked_steps(field, range, steps, MOST_AXIS_STEPS)?;
+        // A unit direction keeps its digits when it is given again.
+        let length = if (length - 1.0).abs() <= 1e-15 { 1.0 } else { length };
         let direction = Unit::new_unchecked(Vector3::from(direction) / length);
         Ok(Self { carried: carried(direction), range, steps, max_velocity: 1.0, weight: 1.0 })
     }
@@ -285,6 +292,20 @@ impl ExternalAxis {
             return Err(PlanFault::AxisWeight { value: weight }.into());
         }
         Ok(Self { weight, ..self })
+    }
+
+    /// Direction of a track, or of the line about which the object turns.
+    #[must_use]
+    pub fn direction(&self) -> [f64; 3] {
+        use Carried::{Arm, Object, Robot, Tool};
+        let (Robot(axis) | Object(axis, _) | Arm(axis, _) | Tool(axis, _)) = self.carried;
+        axis.into_inner().into()
+    }
+
+    /// The track in another frame.
+    pub(super) fn turned(self, rotation: &Rotation3<f64>) -> Self {
+        let direction = Unit::new_normalize(rotation * Vector3::from(self.direction()));
+        Self { carried: Carried::Robot(direction), ..self }
     }
 
     /// The least and the largest value [m, rad].

@@ -63,6 +63,14 @@ pub enum PlanFault {
         "max_velocity of an external axis must be positive and finite, got {value} (m/s or rad/s)"
     )]
     AxisVelocity { value: f64 },
+    #[error(
+        "position is {value} m, it must be {} to {} m, the limits of the robot's carrier: pass \
+         meters between them",
+        .bounds[0], .bounds[1]
+    )]
+    Position { value: f64, bounds: [f64; 2] },
+    #[error("this robot has no carrier, no file gave it a rail or a lift: with_base(T) moves it")]
+    NoCarrier,
     #[error("weight of an external axis must be finite and not negative, got {value}")]
     AxisWeight { value: f64 },
     #[error(

@@ -153,7 +153,7 @@ impl Freedom {
     }
 
     /// A pose of the path seen from the robot, its external axes at their values.
-    fn carried(&self, pose: &Pose, values: &Values) -> Pose {
+    pub(super) fn carried(&self, pose: &Pose, values: &Values) -> Pose {
         // The object first, from the axis that holds it on; then the robot, and its first joint.
         let pose = self.seen(pose, values, |carried| matches!(carried, Carried::Object(..)));
         let pose = self.seen(&pose, values, |carried| matches!(carried, Carried::Robot(_)));

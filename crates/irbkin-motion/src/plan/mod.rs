@@ -46,6 +46,7 @@ mod certificate;
 mod five;
 mod followed;
 mod planner;
+pub(crate) mod rail;
 mod reasons;
 mod refine;
 mod robot;

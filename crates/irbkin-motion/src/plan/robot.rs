@@ -75,7 +75,8 @@ impl Arm<6> {
         let is_any = tests.is_any();
         let mut tests = OfSix { tests: &mut tests, all: |q: &[f64; 6], _: &Values| *q };
         let tests = is_any.then_some(&mut tests as &mut dyn Test);
-        planned(self, path, options, &mut Caller { tests, interrupt })
+        let robot = &self.before(&options.external)?;
+        planned(robot, path, options, &mut Caller { tests, interrupt })
     }
 }
 

@@ -59,14 +59,14 @@ impl Arm<7> {
     ) -> Result<Plan<7>, PlanError<7>> {
         self.check_structure()?;
         let mut tests = Tests::new(self, options, accept)?;
-        if self.locked_joint().is_some() {
-            return Seven { robot: self, locked: self, is_free: false }
+        let robot = &self.before(&options.external)?;
+        if robot.locked_joint().is_some() {
+            return Seven { robot, locked: robot, is_free: false }
                 .planned(path, options, &mut tests, interrupt);
         }
         let mut by = |joint| {
-            let locked = &self.locked(joint, 0.0)?;
-            Seven { robot: self, locked, is_free: true }
-                .planned(path, options, &mut tests, interrupt)
+            let locked = &robot.locked(joint, 0.0)?;
+            Seven { robot, locked, is_free: true }.planned(path, options, &mut tests, interrupt)
         };
         match (by(7), by(1)) {
             (Ok(one), Ok(other)) => {

@@ -28,7 +28,7 @@ const TOOLS: [&str; 4] = ["tool0", "tcp", "flange", "grasp"];
 /// Number of ends of chains up to which a message looks for chains that could be taken.
 const MOST_ENDS: usize = 64;
 
-/// The base, and the joints from there to the tip, all of them revolute or fixed; the number of
+/// The base, and the joints from there to the tip, revolute or fixed but for a rail; the number of
 /// revolute ones is in `wanted`. Then a remark on how the tip was chosen among several.
 pub(super) fn chain_between<'t, 'a>(
     tree: &'t Tree<'a>,
@@ -71,6 +71,12 @@ pub(super) fn chain_between<'t, 'a>(
         Err(fault) => fault,
     };
     Err(proposing(fault, tree, base, &[tip], (wanted, &grips)))
+}
+
+/// The joints of a chain up to the one that slides, taken from it; none without a rail.
+pub(super) fn take_rail<'t, 'a>(chain: &mut Vec<&'t Joint<'a>>) -> Vec<&'t Joint<'a>> {
+    let slide = chain.iter().position(|joint| joint.slides());
+    chain.drain(..slide.map_or(0, |slide| slide + 1)).collect()
 }
 
 /// A fault of the chains to `ends`, with the bases and tips of chains on them that could be taken.
@@ -197,6 +203,8 @@ struct Way<'a> {
     turning: usize,
     /// Name of the second of them.
     second: &'a str,
+    /// Whether a joint on it moves.
+    moves: bool,
     /// Whether the joint of a linkage is on it.
     coupled: bool,
     /// The first joint that must not be on the path.
@@ -208,7 +216,7 @@ struct Way<'a> {
 impl<'a> Way<'a> {
     /// The path with one joint more, if that may be on it.
     fn through(self, joint: &Joint<'a>) -> Result<Self, UrdfFault> {
-        joint.fault()?;
+        joint.fault(self.moves)?;
         if joint.is_linkage() {
             let is_beside_joint_3 = matches!(self.turning, 2 | 3);
             let may_be = is_beside_joint_3 && self.second == joint.followed() && !self.coupled;
@@ -216,7 +224,7 @@ impl<'a> Way<'a> {
         }
         let turning = self.turning + usize::from(joint.turns());
         let second = if joint.turns() && turning == 2 { joint.name } else { self.second };
-        Ok(Self { turning, second, ..self })
+        Ok(Self { turning, second, moves: self.moves || joint.kind != "fixed", ..self })
     }
 }
 
@@ -363,6 +371,11 @@ fn only_tip(
                 most: axes.or(most).unwrap_or_default(),
                 grips: axes.is_some(),
             };
+            let turns = |link: &usize| tree.above[*link].is_some_and(|it| tree.joints[it].turns());
+            let below = |joint: &Joint<'_>| tree.hanging_on([joint.child].into_iter());
+            let mut barred = of_ends().filter_map(|way| way.barred_by).map(|it| &tree.joints[it]);
+            let slides = barred.any(|it| it.slides() && below(it).iter().any(turns));
+            let fault = if slides { UrdfFault::Sliding { fault: Box::new(fault) } } else { fault };
             Err(proposing(fault, tree, base_link, &ends, (wanted, grips)))
         }
     }

@@ -282,8 +282,8 @@ pub(super) fn places<const N: usize>(
 ) -> Vec<Option<(usize, Pose)>> {
     let (frames, _) = arm.link_frames(&[0.0; N]);
     let is_carried = joints.last().is_some_and(|joint| joint.motion.is_none());
-    let (mut pose, mut turning, mut coupled) = (Pose::identity(), 0, false);
-    let mut places = vec![Some((0, pose))];
+    let (mut pose, mut turning, mut coupled) = (*arm.base(), 0, false);
+    let mut places = vec![Some((0, Pose::identity()))];
     for (index, joint) in joints.iter().enumerate() {
         pose *= joint.origin(snap);
         if let Some(linkage) = &joint.linkage {

@@ -115,14 +115,23 @@ pub enum UrdfFault {
         too_few(*.most)
     )]
     NoTip { base: String, wanted: Vec<usize>, ends: Names, most: usize, grips: bool },
+    #[error("{fault}{SLIDING}")]
+    Sliding { fault: Box<Self> },
     /// `chains`: the bases and tips of chains that could be taken.
     #[error("{fault}; pass {}", Listed(.chains, " or "))]
     Proposing { fault: Box<Self>, chains: Vec<String> },
     #[error(
         "joint {joint:?} is {kind:?}, between base and tip it must be revolute, continuous or \
-         fixed (choose base and tip beside it)"
+         fixed (choose base and tip beside it){}",
+        if .kind == "prismatic" { SLIDING } else { "" }
     )]
     JointType { joint: String, kind: String },
+    #[error(
+        "joint {joint:?} slides from {lower} to {upper} m before the arm, it must slide upwards, \
+         within 1000 m of zero: write <limit lower=\"0\" upper=\"2.5\" .../>, in MJCF \
+         range=\"0 2.5\", or make it fixed"
+    )]
+    Rail { joint: String, lower: f64, upper: f64 },
     #[error(
         "joint {joint:?} mimics {of:?} with multiplier {multiplier}, between base and tip each \
          joint must turn by itself, except a linkage: it takes joint 2 back on the axis of joint \
@@ -168,6 +177,10 @@ pub enum UrdfFault {
     #[error("the links have more than {bound} collision shapes, or too many that are swept")]
     Shapes { bound: usize },
 }
+
+/// Why a joint may not slide.
+const SLIDING: &str = "; one joint may slide, before all others (a rail, a lift), but \
+                                  SCARA, telescopes and gantries have no inverse here";
 
 /// Why so many joints are not enough, of a number that arms have.
 fn too_few(count: usize) -> String {

@@ -42,7 +42,7 @@ pub(crate) struct Placed {
     pub(super) linkage: Option<Linkage>,
 }
 
-/// A revolute joint: its axis in the child's frame, limits [rad] and velocity [rad/s].
+/// A joint that turns or slides: its axis in the child's frame, limits [rad, m] and velocity.
 pub(crate) struct Motion {
     pub(super) direction: Vector3<f64>,
     pub(super) limits: [f64; 2],
@@ -87,7 +87,7 @@ pub(super) fn axis(direction: Vector3<f64>, t_base_child: &Pose, snap: Option<f6
 }
 
 /// The coordinate axis within `snap` of a unit direction [rad], or the direction.
-fn snapped_direction(direction: Vector3<f64>, snap: f64) -> Vector3<f64> {
+pub(super) fn snapped_direction(direction: Vector3<f64>, snap: f64) -> Vector3<f64> {
     let rest = direction.map(|component| if component.abs() <= snap { 0.0 } else { component });
     let along = rest.map(|component| if component == 0.0 { 0.0 } else { component.signum() });
     if along.norm_squared() < 1.5 && (direction - along).norm() <= snap { along } else { direction }
@@ -131,6 +131,11 @@ impl<'a> Joint<'a> {
         self.is_revolute() && !self.is_linkage()
     }
 
+    /// Whether the joint may be a rail or a lift.
+    pub(super) fn slides(&self) -> bool {
+        self.kind == "prismatic"
+    }
+
     fn is_revolute(&self) -> bool {
         matches!(self.kind, "revolute" | "continuous")
     }
@@ -168,16 +173,17 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// The reason why the joint may not be between base and tip.
-    pub(super) fn fault(&self) -> Result<(), UrdfFault> {
-        if !self.is_revolute() && self.kind != "fixed" {
+    /// The reason why the joint may not be between base and tip, or not behind one that moves.
+    pub(super) fn fault(&self, is_behind: bool) -> Result<(), UrdfFault> {
+        let may_slide = self.slides() && !is_behind;
+        if !self.is_revolute() && !may_slide && self.kind != "fixed" {
             return Err(UrdfFault::JointType {
                 joint: self.name.to_owned(),
                 kind: self.kind.to_owned(),
             });
         }
         match self.element("mimic")? {
-            Some(_) if self.is_revolute() && !self.is_linkage() => Err(self.mimic()),
+            Some(_) if self.kind != "fixed" && !self.is_linkage() => Err(self.mimic()),
             _ => Ok(()),
         }
     }
@@ -262,21 +268,21 @@ impl<'a> Joint<'a> {
 
     /// The motion; `None` for a fixed joint, and for a linkage's.
     fn motion(&self) -> Result<Option<Motion>, UrdfFault> {
-        if !self.turns() {
+        if !self.turns() && !self.slides() {
             return Ok(None);
         }
         let (direction, (limits, velocity)) = (self.direction()?, self.limit()?);
         Ok(Some(Motion { direction, limits, velocity }))
     }
 
-    /// Limits, infinite for a continuous joint, and velocity. A missing limit is zero, as the
+    /// Limits, infinite without any, and velocity. A missing limit is zero, as the
     /// format defines; one beyond [`MOST_ANGLE`] is none. A velocity that is no positive number below
     /// that is not known: it concerns no pose.
     fn limit(&self) -> Result<([f64; 2], Option<f64>), UrdfFault> {
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let Some(limit) = self.element("limit")? else {
             let fault = UrdfFault::NoLimit { joint: self.name.to_owned() };
-            return if self.kind == "continuous" { Ok((unlimited, None)) } else { Err(fault) };
+            return if self.kind == "revolute" { Err(fault) } else { Ok((unlimited, None)) };
         };
         let velocity = limit.attribute("velocity").and_then(|text| text.trim().parse().ok());
         let velocity = velocity.filter(|value: &f64| *value > 0.0 && *value < MOST_ANGLE);

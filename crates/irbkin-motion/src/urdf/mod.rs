@@ -22,14 +22,16 @@ use alloc::vec::Vec;
 
 use nalgebra::Vector3;
 
-use self::chain::chain_between;
+use self::chain::{chain_between, take_rail};
 use self::collision::{Solid, body_of, carriers, places, remark, shaped, solids};
-use self::joint::{Joint, Motion, Placed, axis};
+use self::joint::{Joint, Motion, Placed, axis, snapped_direction};
 pub use self::sweep::Carrier;
 use self::tree::Tree;
 pub use self::tree::read_document;
 use crate::arm::{AnyArm, Arm};
 use crate::error::Error;
+use crate::plan::ExternalAxis;
+use crate::plan::rail::Rail;
 use crate::urdf::fault::UrdfFault;
 use irbkin::internal::thresholds::FORM_TOLERANCE;
 use irbkin::internal::{ModelFault, OFFSET_WRIST, SNAPS, check_snap};
@@ -52,6 +54,9 @@ where
     /// that takes joint 2 back on the axis of joint 3, by mimicking it with the multiplier -1, or 1
     /// about the reverse axis, and any offset, is a parallelogram linkage: the arm is then
     /// [`Robot::coupled`].
+    ///
+    /// A prismatic joint before all that turn is a rail or a lift ([`Arm::carrier`], [`Arm::at`]): the
+    /// robot's own base is the link behind it, at the joint's zero or at the limit nearest to it.
     ///
     /// Right angles rounded to four or more decimals, as 1.5708, are made exact, unless that may move
     /// the tool by more than 1e-4 m; [`Arm::from_urdf_snapped`] with 0 keeps them.
@@ -125,6 +130,9 @@ pub struct UrdfArm {
     joint_names: Vec<String>,
     /// On the tip, and on exact right angles.
     remarks: [String; 2],
+    /// The joints of the rail, the last of which slides; none without a rail.
+    rail: Vec<Placed>,
+    rail_name: String,
     joints: Vec<Placed>,
     /// The shapes of its links, if all are read, and a remark on those beside the chain.
     solids: Result<(Vec<Solid>, String), UrdfFault>,
@@ -141,16 +149,22 @@ impl UrdfArm {
     ) -> Result<Self, Error> {
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
-            let (base, chain, remark) = chain_between(&tree, base, tip, wanted)?;
+            let (base, mut chain, remark) = chain_between(&tree, base, tip, wanted)?;
+            let rail = take_rail(&mut chain);
+            let base = rail.last().map_or(base, |joint| joint.child);
             let tip = chain.last().map_or(base, |joint| joint.child);
             let ends = [base, tip].map(|link| tree.links[link].to_string());
             let solids = solids(&tree, document.root_element(), base, &chain);
             let turning = chain.iter().filter(|joint| joint.turns());
             let joint_names = turning.map(|joint| joint.name.to_string()).collect();
+            let rail_name = rail.last().map_or("", |joint| joint.name).to_string();
             let placed = |joint: &Joint<'_>| joint.placed(tree.version);
-            let mut joints = chain.into_iter().map(placed).collect::<Result<Vec<_>, _>>()?;
-            let remarks = [remark, check_rounding(&mut joints)];
-            Ok(Self { name: tree.name.to_string(), ends, joint_names, remarks, joints, solids })
+            let all = rail.iter().chain(&chain).copied();
+            let mut all = all.map(placed).collect::<Result<Vec<_>, _>>()?;
+            let remarks = [remark, check_rounding(&mut all)];
+            let joints = all.split_off(rail.len());
+            let name = tree.name.to_string();
+            Ok(Self { name, ends, joint_names, remarks, rail: all, rail_name, joints, solids })
         })
     }
 
@@ -181,7 +195,8 @@ impl UrdfArm {
         };
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
-            let (base, chain, _) = chain_between(&tree, base, tip, &count)?;
+            let (base, mut chain, _) = chain_between(&tree, base, tip, &count)?;
+            let base = take_rail(&mut chain).last().map_or(base, |joint| joint.child);
             let carriers = carriers(&tree, base, &chain);
             let has_shapes = shaped(document.root_element(), &["collision", "visual"]);
             let remark = remark(&tree, &carriers, &has_shapes);
@@ -272,6 +287,7 @@ impl UrdfArm {
         let remarks: Vec<_> = remarks.filter(|it| !it.is_empty()).cloned().collect();
         let labels = (self.joint_names.clone(), remarks.join(", "));
         let arm = Arm::from(self.limited(robot.with_labels(Some(labels)))?);
+        let arm = self.carried(arm, snap)?;
         match &self.solids {
             Ok((solids, remark)) => {
                 let body = body_of(&arm, solids, &self.joints, snap, remark);
@@ -279,6 +295,20 @@ impl UrdfArm {
             }
             Err(fault) => Ok(arm.without_body(fault.to_string())),
         }
+    }
+
+    /// The arm on its rail, if it has one: at zero, or at the limit nearest to it.
+    fn carried<const N: usize>(&self, arm: Arm<N>, snap: Option<f64>) -> Result<Arm<N>, Error> {
+        let Some(Placed { motion: Some(motion), .. }) = self.rail.last() else { return Ok(arm) };
+        let [lower, upper] = motion.limits;
+        let direction = snapped_direction(motion.direction, snap.unwrap_or(0.0)).into();
+        let track = ExternalAxis::rail(direction, motion.limits, motion.velocity.unwrap_or(1.0));
+        let joint = self.rail_name.clone();
+        let track = track.map_err(|_| UrdfFault::Rail { joint, lower, upper })?;
+        let base = self.rail.iter().fold(Pose::identity(), |base, joint| base * joint.origin(snap));
+        let mut arm = arm.map(|robot| robot.with_base(&base))?;
+        arm.rail = Some(Rail { track, position: 0.0 });
+        arm.at(0.0_f64.clamp(lower, upper))
     }
 
     fn table<const N: usize>(&self, snap: Option<f64>) -> Result<Mdh<N>, Error> {

@@ -54,7 +54,7 @@ impl<const N: usize> Arm<N> {
     /// `world`; with a tool, `tool` is placed in `tool0`. If axes 2 and 3 are coupled, a
     /// passive joint between them mimics joint 2, and joint 3 is the controller's;
     /// [`Robot::uncoupled`] has no such joint. A joint with a limit on one side only gets
-    /// [`MOST_ANGLE`](irbkin::thresholds::MOST_ANGLE) on the other.
+    /// [`MOST_ANGLE`](irbkin::thresholds::MOST_ANGLE) on the other. A rail is not written.
     ///
     /// ```
     /// use irbkin_motion::Arm;
