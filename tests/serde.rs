@@ -7,7 +7,7 @@ use irbkin::{
     AnyRobot, Configuration, Corrections, JointLimits, Joints, Mdh, OpwParameters, Robot, Sdh,
     Solution, Status, catalog, pose,
 };
-use irbkin_motion::AnyArm;
+use irbkin_motion::{AnyArm, Arm};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -71,6 +71,20 @@ fn robots_round_trip() {
     round_trips_with_settings(&refined);
     round_trips(&coupled.clone().with_linkage_limits(None).unwrap());
     round_trips(&coupled.with_linkage_limits(Some([-1.0, f64::INFINITY])).unwrap());
+}
+
+#[test]
+fn an_arm_on_a_rail_round_trips_and_is_checked() {
+    let rail = "<link name='floor'/><joint name='rail' type='prismatic'><parent link='floor'/>\
+                <child link='base_link'/><axis xyz='1 2 3'/><limit lower='0' upper='2'/></joint>";
+    let text = include_str!("data/ur5e.urdf").replace("</robot>", &format!("{rail}</robot>"));
+    let arm = Arm::<6>::from_urdf(&text, None, Some("tool0")).unwrap().at(0.3).unwrap();
+    round_trips(&arm);
+    let written = serde_json::to_string(&arm).unwrap();
+    let broken = written.replace("[0.0,2.0],1.0,0.3]", "[0.0,2.0],1.0,2.3]");
+    assert_ne!(written, broken);
+    let words = serde_json::from_str::<Arm<6>>(&broken).unwrap_err().to_string();
+    assert!(words.contains("position is 2.3 m, it must be 0 to 2 m"), "{words}");
 }
 
 #[test]

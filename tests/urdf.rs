@@ -6,9 +6,11 @@ use crate::common;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
+use nalgebra::{Rotation3, Unit, Vector3};
+
 use crate::common::Rng;
 use crate::structures::spherical_wrist::kuka_kr6;
-use irbkin::{PoseDifference, Robot};
+use irbkin::{Pose, PoseDifference, Robot};
 use irbkin_motion::{Arm, Error};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");
@@ -17,6 +19,10 @@ const KUKA: &str = include_str!("data/kr6_r700.urdf");
 const UR5E: &str = include_str!("data/ur5e.urdf");
 const PANDA: &str = include_str!("data/panda_hand.urdf");
 const SEVEN: &str = include_str!("data/iiwa14.urdf");
+
+fn turn(axis: Vector3<f64>, angle: f64) -> Rotation3<f64> {
+    Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle)
+}
 
 fn six(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Arm<6>, Error> {
     Arm::serial_chain_from_urdf(text, base, tip)
@@ -293,10 +299,11 @@ fn a_message_names_the_links_to_pass() {
     assert!(words(&versioned("", "", &fingers)).ends_with("; pass tip=\"l6\" (6 joints)"));
     let tip = six(&versioned("", "", &fingers), None, Some("fl6prismatic"));
     assert!(refused(tip).ends_with("; pass tip=\"l6\" (6 joints)"));
-    let lift = "<link name='w'/><joint name='lift' type='prismatic'><parent link='w'/><child \
-                link='l0'/></joint>";
-    let lifted = words(&versioned("", "", lift));
-    assert!(lifted.ends_with("; pass base=\"l0\" and tip=\"l6\" (6 joints)"), "{lifted}");
+    let gantry = "<link name='w'/><link name='v'/><joint name='x' type='prismatic'><parent link='w'/>\
+                  <child link='v'/></joint><joint name='y' type='prismatic'><parent link='v'/>\
+                  <child link='l0'/></joint>";
+    let carried = words(&versioned("", "", gantry));
+    assert!(carried.ends_with("; pass base=\"l0\" and tip=\"l6\" (6 joints)"), "{carried}");
     let eight = behind("l6", "revolute") + &behind("fl6revolute", "revolute");
     let longer = words(&versioned("", "", &eight));
     let wanted = "; pass tip=\"l6\" (6 joints) or base=\"l2\" and tip=\"ffl6revoluterevolute\" \
@@ -511,6 +518,108 @@ fn links_and_joints_must_form_a_tree() {
     }
 }
 
+const SLIDING: &str = "; one joint may slide, before all others (a rail, a lift), but SCARA, \
+                       telescopes and gantries have no inverse here";
+
+/// The IRB 2600 on a rail of other limits, between fixed joints.
+fn railed(limit: &str) -> String {
+    let rail = format!(
+        "<link name='floor'/><joint name='stand' type='fixed'><parent link='floor'/>\
+         <child link='beam'/><origin xyz='1 2 3' rpy='0 0 0.5'/></joint><link name='beam'/>\
+         <joint name='rail' type='prismatic'><parent link='beam'/><child link='slide'/>\
+         <origin xyz='0 0 0.5' rpy='0 0.3 0'/><axis xyz='0 2 1'/>{limit}</joint>\
+         <link name='slide'/><joint name='mount' type='fixed'><parent link='slide'/>\
+         <child link='base_link'/><origin xyz='0 0 0.1'/></joint></robot>"
+    );
+    IRB2600.replace("</robot>", &rail)
+}
+
+#[test]
+fn a_rail_carries_the_base() {
+    let bare = six(IRB2600, None, None).unwrap();
+    let way = Vector3::new(0.0, 2.0, 1.0) / 5.0_f64.sqrt();
+    let stand = Pose::from_parts(Vector3::new(1.0, 2.0, 3.0).into(), turn(Vector3::z(), 0.5));
+    let beam = Pose::from_parts(Vector3::new(0.0, 0.0, 0.5).into(), turn(Vector3::y(), 0.3));
+    let mount = Pose::translation(0.0, 0.0, 0.1);
+    let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
+    for (limits, first) in [([-0.5, 2.5], 0.0), ([0.5, 2.0], 0.5), ([-2.0, -1.0], -1.0)] {
+        let [lower, upper] = limits;
+        let limit = format!("<limit lower='{lower}' upper='{upper}' velocity='1.5'/>");
+        let arm = Arm::<6>::from_urdf(&railed(&limit), None, None).unwrap();
+        let places =
+            [arm.clone(), arm.at(lower).unwrap(), arm.at(upper).unwrap().at(lower).unwrap()];
+        for (arm, position) in places.iter().zip([first, lower, lower]) {
+            let base =
+                stand * beam * Pose::from_parts((way * position).into(), Rotation3::identity());
+            let off = PoseDifference::between(&arm.fk(&q), &(base * mount * bare.fk(&q)));
+            assert!(off.largest() < 4e-15, "{off:?}");
+        }
+        let carrier = arm.carrier().unwrap();
+        assert_eq!((carrier.range(), carrier.max_velocity()), (limits, 1.5));
+        let off = Vector3::from(carrier.direction()) - (stand * beam).rotation * way;
+        assert!(off.norm() < 1e-15, "{off}");
+        for outside in [lower - 1e-6, upper + 1e-6, f64::NAN, f64::INFINITY] {
+            let error = arm.at(outside).unwrap_err();
+            assert!(matches!(error, Error::InvalidPlan(_)), "{error}");
+        }
+    }
+    assert_eq!(bare.carrier(), None);
+    assert!(bare.at(0.0).unwrap_err().to_string().contains("with_base"));
+    // A velocity that is not known is a track's.
+    let slow = six(&railed("<limit lower='0' upper='1' velocity='0'/>"), None, None).unwrap();
+    assert!((slow.carrier().unwrap().max_velocity() - 1.0).abs() < f64::EPSILON);
+}
+
+/// What it carries moves with it; what is before it is no part of the arm.
+#[test]
+fn a_rail_is_no_part_of_the_body() {
+    let shape = |size: f64| {
+        format!("<collision><geometry><sphere radius='{size}'/></geometry></collision></link>")
+    };
+    let text = railed("<limit lower='0' upper='1'/>")
+        .replace("<link name='beam'/>", &format!("<link name='beam'>{}", shape(0.9)))
+        .replace("<link name='slide'/>", &format!("<link name='slide'>{}", shape(0.2)));
+    let arm = Arm::<6>::from_urdf(&text, None, None).unwrap();
+    let body = arm.at(0.7).unwrap().body().cloned().unwrap();
+    assert_eq!(Some(&body), arm.body());
+    let balls: Vec<_> = body.capsules().iter().filter(|it| it.capsule.is_sphere()).collect();
+    assert_eq!((balls.len(), balls[0].link), (1, 0));
+    assert!((balls[0].capsule.radius() - 0.2).abs() < 1e-12);
+    assert!(Vector3::from(balls[0].capsule.ends()[0]).norm() < 1e-12);
+}
+
+#[test]
+fn a_rail_needs_limits_and_is_the_first_joint() {
+    for (limit, range) in [
+        ("", "-inf to inf"),
+        ("<limit/>", "0 to 0"),
+        ("<limit lower='2' upper='1'/>", "2 to 1"),
+        ("<limit lower='0' upper='1001'/>", "0 to 1001"),
+        ("<limit lower='0' upper='1e9'/>", "0 to inf"),
+    ] {
+        let text = words(&railed(limit));
+        assert!(
+            text.starts_with(&format!("URDF: joint \"rail\" slides from {range} m ")),
+            "{text}"
+        );
+        assert!(text.contains("write <limit lower=\"0\" upper=\"2.5\" .../>"), "{text}");
+    }
+    let limited = railed("<limit lower='0' upper='1'/>");
+    let two = limited.replace("name='mount' type='fixed'", "name='mount' type='prismatic'");
+    let ends = words(&two);
+    assert!(ends.contains("\"tool0\" (behind joint \"mount\", prismatic)"), "{ends}");
+    assert!(ends.contains(SLIDING), "{ends}");
+    let upper = two.replace("<origin xyz='0 0 0.1'/>", "<mimic joint='rail'/>");
+    let upper = upper.replace("name='rail' type='prismatic'", "name='rail' type='fixed'");
+    let mimic = refused(six(&upper, None, Some("tool0")));
+    assert!(mimic.starts_with("URDF: joint \"mount\" mimics \"rail\""), "{mimic}");
+    let zero = limited.replace("<axis xyz='0 2 1'/>", "<axis xyz='0 0 0'/>");
+    assert_eq!(words(&zero), "URDF: joint \"rail\" axis is 0 0 0, it must have a length");
+    // The carriage as the base leaves the rail out.
+    let carriage = six(&limited, Some("slide"), None).unwrap();
+    assert_eq!((carriage.carrier(), *carriage.base()), (None, Pose::identity()));
+}
+
 /// The IRB 2600 with a part of its third joint's text changed.
 fn third(from: &str, to: &str) -> String {
     let at = IRB2600.find("name=\"joint_3\"").unwrap();
@@ -525,7 +634,8 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     for kind in ["prismatic", "planar", "floating", "revolut", "Revolute", ""] {
         let wanted = format!(
             "URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, \
-             continuous or fixed (choose base and tip beside it)"
+             continuous or fixed (choose base and tip beside it){}",
+            if kind == "prismatic" { SLIDING } else { "" }
         );
         assert_eq!(tool(&third("revolute", kind)), wanted);
     }
@@ -542,7 +652,7 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     assert_eq!(words(&mimic), format!("{ends}, \"tool0\" (5, and a mimic)"));
     let doubled = third("<axis", "<mimic joint=\"joint_2\" multiplier=\"2\"/><axis");
     assert_eq!(words(&doubled), format!("{behind}a mimic)"));
-    assert_eq!(words(&third("revolute", "prismatic")), format!("{behind}prismatic)"));
+    assert_eq!(words(&third("revolute", "prismatic")), format!("{behind}prismatic){SLIDING}"));
     let fixed = third("revolute", "fixed");
     assert_eq!(
         tool(&fixed),

@@ -45,12 +45,12 @@ def oracle(text):
     return mujoco.MjModel.from_xml_string(text)
 
 
-def poses(own, robot, base, tip, q):
-    """The poses of a site or body in a body."""
+def poses(own, names, base, tip, q):
+    """The poses of a site or body in a body, joints of these names at rows of q."""
     data = mujoco.MjData(own)
     found = []
     for row in q:
-        for name, angle in zip(robot.joint_names, row, strict=True):
+        for name, angle in zip(names, row, strict=True):
             data.joint(name).qpos[0] = angle
         mujoco.mj_kinematics(own, data)
         frames = []
@@ -84,7 +84,7 @@ def test_fk_is_mujocos(base, tip, root, end):
     robot = Robot.from_mjcf(model(), base, tip)
     q = np.random.default_rng(1).uniform(-4, 4, (200, 6))
     own = oracle(model())
-    np.testing.assert_allclose(robot.fk(q), poses(own, robot, root, end, q), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(robot.fk(q), poses(own, robot.joint_names, root, end, q), rtol=0, atol=1e-12)
     assert robot.joint_names == ("j1", "j2", "j3", "j4", "j5", "j6")
     assert robot.name == "lab arm"
     limits = own.jnt_range[1:].copy()
@@ -133,7 +133,7 @@ def test_of_two_arms_the_tip_chooses_the_base():
     assert '"right_b6" (6)' in fault(text)
     robot = Robot.from_mjcf(text, tip="right_b6")
     q = np.random.default_rng(2).uniform(-2, 2, (20, 6))
-    want = poses(oracle(text), robot, "right_post", "right_b6", q)
+    want = poses(oracle(text), robot.joint_names, "right_post", "right_b6", q)
     np.testing.assert_allclose(robot.fk(q), want, rtol=0, atol=1e-12)
 
 
@@ -145,6 +145,46 @@ def test_a_gripper_is_not_the_arms():
     )
     mirror = '<equality><joint joint1="left_finger" joint2="right_finger"/></equality>'
     assert Robot.from_mjcf(model(SITE + jaws, mirror), tip="tcp").dof == 6
+
+
+SLIDE = '<body name="cart" pos="0.1 0 0.4" euler="0 20 0"><joint name="rail" type="slide" {}/>'
+
+
+@pytest.mark.parametrize("ref", [0, 0.4, -0.2])
+@pytest.mark.parametrize(("base", "root"), [(None, "stand"), ("world", "world")])
+def test_a_slide_before_the_hinges_carries_the_arm(base, root, ref):
+    rail = SLIDE.format(f'axis="1 2 0" pos="0.3 0.1 0" range="-0.5 2" ref="{ref}"')
+    text = model(joints=rail + JOINTS + "</body>")
+    robot = Robot.from_mjcf(text, base)
+    assert (robot.carrier.lower, robot.carrier.upper) == (-0.5, 2)
+    own = oracle(text)
+    rng = np.random.default_rng(1)
+    for x in (0.0, -0.5, 1.3):
+        q = rng.uniform(-2, 2, (20, 6))
+        names = ["rail", *robot.joint_names]
+        want = poses(own, names, root, "tcp", np.column_stack([np.full(20, x), q]))
+        np.testing.assert_allclose(robot.at(x).fk(q), want, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(robot.base, robot.at(0).base)
+
+
+def test_a_slide_and_a_hinge_of_one_body():
+    both = JOINTS.replace('<joint name="j1"', '<joint name="rail" type="slide" range="0 1"/>'
+                          '<joint name="j1"')  # fmt: skip
+    robot = Robot.from_mjcf(model(joints=both), "stand")
+    q = np.random.default_rng(2).uniform(-2, 2, (20, 6))
+    rows = np.column_stack([np.full(20, 0.3), q])
+    want = poses(oracle(model(joints=both)), ["rail", *robot.joint_names], "stand", "tcp", rows)
+    np.testing.assert_allclose(robot.at(0.3).fk(q), want, rtol=0, atol=1e-12)
+
+
+def test_a_slide_without_a_range_or_coupled_is_refused():
+    endless = fault(model(joints=SLIDE.format("") + JOINTS + "</body>"))
+    assert 'joint "rail" slides from -inf to inf m' in endless
+    assert 'in MJCF range="0 2.5"' in endless
+    twin = SLIDE.format('range="0 1"') + JOINTS + "</body>"
+    twin += '<body name="twin"><joint name="other" type="slide" range="0 1"/></body>'
+    rest = '<equality><joint joint1="other" joint2="rail"/></equality>'
+    assert 'joint "rail", coupled prismatic' in fault(model(joints=twin, rest=rest))
 
 
 @pytest.mark.parametrize(("kind", "word"), [("slide", "prismatic"), ("ball", "ball")])

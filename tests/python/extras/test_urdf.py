@@ -73,6 +73,19 @@ def test_poses_are_those_of_pinocchio(name):
     assert_agrees(robot, by_pinocchio(TEXTS[name], base, last), bound)
 
 
+@pytest.mark.parametrize("position", [-0.3, 0, 0.8])
+def test_a_rail_is_where_pinocchio_has_it(position):
+    rail = (
+        '<link name="floor"/><joint name="rail" type="prismatic"><parent link="floor"/>'
+        '<child link="world"/><origin xyz="0.1 0.2 0.3" rpy="0.4 0.5 0.6"/><axis xyz="1 -2 3"/>'
+        '<limit lower="-0.5" upper="1" effort="0" velocity="2"/></joint></robot>'
+    )
+    text = TEXTS["tilted"].replace("</robot>", rail)
+    robot = Robot.from_urdf(text, snap=0).at(position)
+    fk = by_pinocchio(text, "floor", "tip")
+    assert_agrees(robot, lambda q: fk([position, *q]), 2 * rounding(reach(robot) + 2))
+
+
 @pytest.mark.parametrize(
     ("base", "tip"), [("base_link", "tip"), ("world", "link_6"), ("base_link", "link_6")]
 )
