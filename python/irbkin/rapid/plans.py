@@ -71,8 +71,8 @@ def plan_targets(
         extax = plan.external * units
     axes = _external(np.shape(plan.external)[1], len(q), extax)
     targets = [
-        _core.calc_rob_t(robot._carried(carriers, values.tolist()), JointTarget.of(row, more), tool, wobj)
-        for row, more, values in zip(q.tolist(), axes.tolist(), plan.external, strict=True)
+        _core.calc_rob_t(robot._carried(carriers, values), JointTarget.of(row, more), tool, wobj)
+        for row, more, values in zip(q.tolist(), axes.tolist(), plan.external.tolist(), strict=True)
     ]
     # Of a quaternion and its negative, the one nearer to the target before.
     for number, own in enumerate(targets[1:], 1):

@@ -84,7 +84,9 @@ def test_fk_is_mujocos(base, tip, root, end):
     robot = Robot.from_mjcf(model(), base, tip)
     q = np.random.default_rng(1).uniform(-4, 4, (200, 6))
     own = oracle(model())
-    np.testing.assert_allclose(robot.fk(q), poses(own, robot.joint_names, root, end, q), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(
+        robot.fk(q), poses(own, robot.joint_names, root, end, q), rtol=0, atol=1e-12
+    )
     assert robot.joint_names == ("j1", "j2", "j3", "j4", "j5", "j6")
     assert robot.name == "lab arm"
     limits = own.jnt_range[1:].copy()
