@@ -922,7 +922,7 @@ fn no_door_offers_a_grippers_joint_as_an_axis() {
             error.contains(&format!("behind joint \"{joint}\", which may be a gripper's")),
             "{error}"
         );
-        let end = "; 5 axes and a gripper; 5 are not enough, since a pose has six coordinates";
+        let end = "; 5 axes and a gripper; pass tip=\"l5\" (5 joints)";
         assert!(error.ends_with(end), "{error}");
     }
     // Six: the arm's own end alone is offered.

@@ -210,8 +210,8 @@ def chain(kinds, extra=""):
         (b"<robot name='\xff'/>", "byte 13 is not valid UTF-8"),
         ("<robot name='\ud800'/>", "byte 13 is not valid UTF-8"),
         (
-            chain(["revolute"] * 5),
-            '6 or 7 revolute joints lead from "l0" to no end of a chain: "l5" (5); 5 are not '
+            chain(["revolute"] * 4),
+            '6 or 7 revolute joints lead from "l0" to no end of a chain: "l4" (4); 4 are not '
             "enough, since a pose has six coordinates",
         ),
     ],

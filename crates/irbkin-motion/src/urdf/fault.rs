@@ -112,7 +112,7 @@ pub enum UrdfFault {
         "{} revolute joints lead from {base:?} to no end of a chain: {ends}{}{}",
         Listed(.wanted, " or "),
         if *.grips { format!("; {most} axes and a gripper") } else { String::new() },
-        too_few(*.most)
+        too_few(*.most, .wanted)
     )]
     NoTip { base: String, wanted: Vec<usize>, ends: Names, most: usize, grips: bool },
     #[error("{fault}{SLIDING}")]
@@ -142,7 +142,7 @@ pub enum UrdfFault {
     #[error(
         "{found} revolute joints lead from {base:?} to {tip:?}, there must be {} (choose base and \
          tip){}",
-        Listed(.wanted, " or "), too_few(*.found)
+        Listed(.wanted, " or "), too_few(*.found, .wanted)
     )]
     JointCount { base: String, tip: String, found: usize, wanted: Vec<usize> },
     #[error("joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous")]
@@ -183,9 +183,11 @@ const SLIDING: &str = "; one joint may slide, before all others (a rail, a lift)
                                   SCARA, telescopes and gantries have no inverse here";
 
 /// Why so many joints are not enough, of a number that arms have.
-fn too_few(count: usize) -> String {
+fn too_few(count: usize, wanted: &[usize]) -> String {
     match count {
-        3..=5 => format!("; {count} are not enough, since a pose has six coordinates"),
+        3..=5 if !wanted.contains(&count) => {
+            format!("; {count} are not enough, since a pose has six coordinates")
+        }
         _ => String::new(),
     }
 }
