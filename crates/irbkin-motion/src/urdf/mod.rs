@@ -171,12 +171,16 @@ impl UrdfArm {
     /// Read the chain of six or seven joints between two links or, if there is none, of five.
     #[doc(hidden)]
     pub fn read_any(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        match Self::read(text, base, tip, &[6, 7]) {
-            Err(Error::InvalidUrdf(
-                UrdfFault::NoTip { most: 5, .. } | UrdfFault::JointCount { found: 5, .. },
-            )) => Self::read(text, base, tip, &[5]),
-            read => read,
+        let is_none = |read: &Result<Self, Error>| {
+            let Err(Error::InvalidUrdf(fault)) = read else { return false };
+            matches!(fault, UrdfFault::NoTip { .. } | UrdfFault::JointCount { .. })
+        };
+        let read = Self::read(text, base, tip, &[6, 7]);
+        if !is_none(&read) {
+            return read;
         }
+        let of_five = Self::read(text, base, tip, &[5]);
+        if is_none(&of_five) { read } else { of_five }
     }
 
     /// Every link with shapes that moves with the chain, and a remark on those beside the chain.
