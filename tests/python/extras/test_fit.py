@@ -162,6 +162,19 @@ def test_a_finger_is_in_a_fitted_body_wherever_its_joint_is(urdf, kind):
         assert outside(points, rows) <= 1e-9
 
 
+def test_a_fitted_body_is_of_what_a_rail_carries(urdf):
+    rail = FINGER.format("9 9 9", "prismatic", "floor").replace("finger", "base_link")
+    beam = '<link name="floor"><visual><geometry><box size="9 9 9"/></geometry></visual></link>'
+    rail = beam + rail[rail.index("<joint") :]
+    path = urdf.with_name("railed.urdf")
+    path.write_text(urdf.read_text().replace("</robot>", rail))
+    body, bare = (Body.fit(it, tip="tool0", most=1) for it in (path, urdf))
+    np.testing.assert_allclose(body.capsules, bare.capsules, rtol=0, atol=1e-12)
+    assert 'left out: "floor"' in body.source
+    with pytest.raises(irbkin.InvalidModelError, match="rail or lift of the arm moves: leave"):
+        Body.fit(path, tip="tool0", most=1, joints={"slide": 0.02})
+
+
 def test_a_body_is_fitted_at_an_opening_of_a_gripper(urdf):
     finger = FINGER.format("0.02 0.03 0.1", "prismatic", "tool0")
     other = finger.replace("slide", "second").replace('"finger"', '"other"')

@@ -216,6 +216,7 @@ impl ExternalAxis {
     }
 
     /// A rail of which a plan tries 21 places at first.
+    #[cfg(any(feature = "urdf", feature = "serde"))]
     pub(crate) fn rail(direction: [f64; 3], range: [f64; 2], velocity: f64) -> Result<Self, Error> {
         Self::track(direction, range[0], range[1], 21)?.with_max_velocity(velocity)
     }

@@ -132,7 +132,7 @@ pub struct UrdfArm {
     remarks: [String; 2],
     /// The joints of the rail, the last of which slides; none without a rail.
     rail: Vec<Placed>,
-    rail_name: String,
+    slide: String,
     joints: Vec<Placed>,
     /// The shapes of its links, if all are read, and a remark on those beside the chain.
     solids: Result<(Vec<Solid>, String), UrdfFault>,
@@ -157,14 +157,13 @@ impl UrdfArm {
             let solids = solids(&tree, document.root_element(), base, &chain);
             let turning = chain.iter().filter(|joint| joint.turns());
             let joint_names = turning.map(|joint| joint.name.to_string()).collect();
-            let rail_name = rail.last().map_or("", |joint| joint.name).to_string();
-            let placed = |joint: &Joint<'_>| joint.placed(tree.version);
-            let all = rail.iter().chain(&chain).copied();
-            let mut all = all.map(placed).collect::<Result<Vec<_>, _>>()?;
+            let slide = rail.last().map_or("", |joint| joint.name).to_string();
+            let placed = |joint: &&Joint<'_>| joint.placed(tree.version);
+            let mut all = rail.iter().chain(&chain).map(placed).collect::<Result<Vec<_>, _>>()?;
             let remarks = [remark, check_rounding(&mut all)];
             let joints = all.split_off(rail.len());
             let name = tree.name.to_string();
-            Ok(Self { name, ends, joint_names, remarks, rail: all, rail_name, joints, solids })
+            Ok(Self { name, ends, joint_names, remarks, rail: all, slide, joints, solids })
         })
     }
 
@@ -307,8 +306,8 @@ impl UrdfArm {
         let [lower, upper] = motion.limits;
         let direction = snapped_direction(motion.direction, snap.unwrap_or(0.0)).into();
         let track = ExternalAxis::rail(direction, motion.limits, motion.velocity.unwrap_or(1.0));
-        let joint = self.rail_name.clone();
-        let track = track.map_err(|_| UrdfFault::Rail { joint, lower, upper })?;
+        let track =
+            track.map_err(|_| UrdfFault::Rail { joint: self.slide.clone(), lower, upper })?;
         let base = self.rail.iter().fold(Pose::identity(), |base, joint| base * joint.origin(snap));
         let mut arm = arm.map(|robot| robot.with_base(&base))?;
         arm.rail = Some(Rail { track, position: 0.0 });
