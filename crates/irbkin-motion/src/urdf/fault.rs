@@ -127,7 +127,7 @@ pub enum UrdfFault {
     )]
     JointType { joint: String, kind: String },
     #[error(
-        "joint {joint:?} slides from {lower} to {upper} m before the arm, it must slide upwards, \
+        "joint {joint:?} slides from {lower} to {upper} m before the arm, it must have a range, \
          within 1000 m of zero: write <limit lower=\"0\" upper=\"2.5\" .../>, in MJCF \
          range=\"0 2.5\", or make it fixed"
     )]
