@@ -6,7 +6,6 @@ use alloc::vec::Vec;
 
 use nalgebra::{Matrix2, Vector2};
 
-/// How a cubic spline ends.
 #[derive(Clone, Copy)]
 pub(crate) enum Ends<'a> {
     /// With given derivatives, a row each.

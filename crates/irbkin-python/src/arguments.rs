@@ -28,7 +28,6 @@ pub(super) fn one_of<T: Copy>(field: &str, word: &str, words: &[(&str, T)]) -> P
     Err(PyValueError::new_err(format!("{field} must be {known}, got \"{word}\"")))
 }
 
-/// The frames of a Jacobian.
 pub(super) const FRAMES: [(&str, JacobianFrame); 2] =
     [("base", JacobianFrame::Base), ("tool", JacobianFrame::Tool)];
 
@@ -48,7 +47,6 @@ pub(super) const PROFILES: [(&str, Profile); 4] = [
     ("s_curve", Profile::SCurve),
 ];
 
-/// Curves through waypoints.
 pub(super) const SPLINES: [(&str, SplineKind); 2] =
     [("quintic", SplineKind::Quintic), ("cubic", SplineKind::Cubic)];
 
@@ -71,7 +69,6 @@ pub(super) const ORIENTATIONS: [(&str, ArcOrientation); 3] = [
 pub(super) const ORDERS: [(&str, PlanOrder); 2] =
     [("bottleneck", PlanOrder::Bottleneck), ("sum", PlanOrder::Sum)];
 
-/// Axes of a frame.
 pub(super) const AXES: [(&str, ToolAxis); 3] =
     [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
 
@@ -88,7 +85,6 @@ pub(super) fn read_seed(seed: &Bound<'_, PyAny>) -> PyResult<u64> {
     seed.extract().map_err(|error| or_overflow(seed, error, || PyValueError::new_err(message())))
 }
 
-/// A number of threads.
 pub(super) fn read_threads(threads: &Bound<'_, PyAny>) -> PyResult<isize> {
     let most = isize::MAX;
     let message = || format!("threads must be 0 (one per core) to {most}, got {threads}");

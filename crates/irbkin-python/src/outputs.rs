@@ -39,7 +39,6 @@ pub(super) fn array<T: Element>(
     Ok(PyArray1::from_iter(py, values).reshape(shape)?.into_any().unbind())
 }
 
-/// An array that its users cannot write to.
 pub(super) fn read_only<D: Dimension>(array: Bound<'_, PyArray<f64, D>>) -> Py<PyArray<f64, D>> {
     array.readwrite().make_nonwriteable();
     array.unbind()
@@ -176,7 +175,6 @@ fn checked_writable<'py, T: Element>(
     array.try_readwrite().map_err(|cause| refused(&format_args!(": {cause}")))
 }
 
-/// An argument in words.
 pub(super) fn describe(value: &Bound<'_, PyAny>) -> String {
     if let Ok(array) = value.cast::<PyUntypedArray>() {
         let order = if array.is_c_contiguous() { "" } else { ", not C-contiguous" };

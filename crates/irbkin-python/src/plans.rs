@@ -237,7 +237,6 @@ fn asked<const N: usize>(accept: &Bound<'_, PyAny>, q: &[[f64; N]]) -> PyResult<
     answers.call_method0("tolist")?.extract()
 }
 
-/// `irbkin.Plan` of a plan.
 fn plan_record<const N: usize>(
     py: Python<'_>,
     robot: &Robot<N>,
@@ -271,7 +270,6 @@ fn rows_of(py: Python<'_>, rows: &[Vec<f64>]) -> PyResult<Py<PyAny>> {
     array(py, filled, &[rows.len(), width])
 }
 
-/// `irbkin.PathError` of a path without a plan.
 fn path_error<const N: usize>(robot: &Robot<N>, gap: &NoPlan<N>) -> PyErr {
     with_attributes(raised("PathError", gap), |value| {
         let py = value.py();

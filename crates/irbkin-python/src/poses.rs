@@ -181,7 +181,6 @@ pub(super) fn to_xyz_euler_zyx<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays
     taken_apart(T, pose_to_euler_zyx)
 }
 
-/// Translations and orientations of `R` numbers each.
 fn taken_apart<'py, const R: usize>(
     poses: &Bound<'py, PyAny>,
     take: fn(&Pose) -> ([f64; 3], [f64; R]),

@@ -254,7 +254,6 @@ fn distances(of: Option<SingularDistances>) -> [f64; 3] {
 }
 
 impl PyRobot {
-    /// The record of one joint vector.
     fn one_singularity(
         &self,
         py: Python<'_>,

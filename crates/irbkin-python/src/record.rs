@@ -77,7 +77,6 @@ macro_rules! record_methods {
 }
 pub(crate) use {record, record_methods};
 
-/// The fields of a record.
 pub(crate) fn fields<'py>(
     record: &Bound<'py, PyAny>,
     names: &[&str],

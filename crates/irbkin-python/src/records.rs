@@ -308,7 +308,6 @@ pub(super) fn kinds(py: Python<'_>, kinds: SingularityKind) -> PyResult<Bound<'_
     Ok(MEMBERS[usize::from(bits)].get_or_try_init(py, made)?.bind(py).clone())
 }
 
-/// `irbkin.Status` of a status.
 pub(super) fn status(py: Python<'_>, status: Status) -> PyResult<Bound<'_, PyAny>> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     CLASS.import(py, "irbkin.records", "Status")?.call1((status.bits(),))
@@ -326,7 +325,6 @@ pub(super) fn reach(py: Python<'_>, reach: Reach) -> PyResult<Bound<'_, PyAny>> 
     })
 }
 
-/// `irbkin.BreakReason` of a break.
 pub(super) fn break_reason<'py>(
     py: Python<'py>,
     reason: &BreakReason,

@@ -181,7 +181,6 @@ type HullRow<'py> = (usize, Bound<'py, PyAny>, Vec<[u8; 3]>, f64);
 /// A hull as an answer.
 type HullItem<'py> = (usize, Bound<'py, PyArray2<f64>>, Vec<[usize; 3]>, f64);
 
-/// Hulls by their links.
 fn read_hulls(hulls: Vec<HullRow<'_>>) -> PyResult<Vec<LinkHull>> {
     let made = hulls.into_iter().map(|(link, points, faces, radius)| {
         let points = read_points(&points)?;

@@ -111,7 +111,6 @@ pub(super) fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyR
     Ok(poses)
 }
 
-/// The shape of an argument.
 pub(super) fn shape_of(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
     Some(as_array(value).ok()?.shape().to_vec())
 }
@@ -121,7 +120,6 @@ pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, PyArra
     matrix(py, pose_to_rows(pose).as_chunks::<4>().0)
 }
 
-/// A seed, checked.
 pub(super) fn read_seed<const N: usize>(seed: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let seed = vector::<N>(seed, "seed", Fault::Joints)?;
     check_seed("seed", &seed).map_err(exception)?;

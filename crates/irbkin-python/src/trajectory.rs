@@ -37,7 +37,6 @@ impl PyTrajectory {
         Self { motion: Arc::new(motion), names: None, times, samples: PyOnceLock::new() }
     }
 
-    /// The trajectory with names of its joints.
     pub(super) fn with_names(self, names: Option<Vec<String>>) -> Self {
         Self { names, ..self }
     }

@@ -136,7 +136,6 @@ pub(super) trait Field {
 
 pub(super) trait Message: Default {
     fn put_fields(&self, out: &mut Vec<u8>);
-    /// Read the field of this number, if there is one.
     fn take_field(&mut self, number: u64, wire: u64, from: &mut Reader) -> Read<bool>;
 }
 

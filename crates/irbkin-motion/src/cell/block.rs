@@ -230,7 +230,6 @@ impl CollisionKernel<'_> {
         self.look == QueryKind::Any
     }
 
-    /// Whether nothing more is asked.
     pub(super) fn is_done(&self) -> bool {
         self.asked == 0 || self.is_enough() && self.asked != self.all
     }

@@ -111,7 +111,6 @@ impl<'a, const N: usize> Checker<'a, N> {
         most_motion(self.arm, self.reach, spans)
     }
 
-    /// The arm at a joint vector.
     pub(super) fn at(&self, q: &[f64; N]) -> Standing<'_, N> {
         let frames = self.arm.link_frames(q).0;
         let Outline { capsules: all, groups, .. } = self.outline;
@@ -141,7 +140,6 @@ pub(super) struct Standing<'a, const N: usize> {
 }
 
 impl<const N: usize> Standing<'_, N> {
-    /// The pose of the link with which a group moves.
     pub(super) fn pose(&self, group: &Group) -> Pose {
         match group.link.checked_sub(1) {
             Some(joint) => self.frames[joint],

@@ -8,7 +8,6 @@ use crate::body::{Bounds, Centered, Shape};
 use irbkin::Pose;
 use irbkin::internal::lanes::{Column, LANES, Number as _, Vector, dot};
 
-/// Three components, in lanes.
 pub(super) type Point<S> = [Vector<S>; 3];
 
 /// The axis of a capsule, in lanes.
@@ -202,7 +201,6 @@ impl Solid {
         minus(local, self.nearest(local))
     }
 
-    /// The nearest point of the solid.
     #[inline(always)]
     fn nearest<S: Simd>(&self, point: Point<S>) -> Point<S> {
         match self {
@@ -248,7 +246,6 @@ fn if_outside<S: Simd>(along: Vector<S>, way: Vector<S>) -> Vector<S> {
     way.size().if_above(zero, along * along, zero)
 }
 
-/// A direction in the frame of a pose.
 #[inline(always)]
 fn in_frame<S: Simd>(way: Point<S>, pose: &Pose) -> Point<S> {
     let r = pose.rotation.matrix();

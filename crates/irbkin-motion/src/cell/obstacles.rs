@@ -101,18 +101,15 @@ impl Cell {
         &self.obstacles.all
     }
 
-    /// How many parts the obstacles consist of.
     pub(super) fn part_count(&self) -> usize {
         self.obstacles.parts.len()
     }
 
-    /// A part of an obstacle.
     pub(super) fn part(&self, place: usize) -> &Shape {
         let [obstacle, part] = self.obstacles.parts[place];
         &self.obstacles.all[obstacle].1.parts()[part]
     }
 
-    /// The obstacle that a part is of, by its place.
     pub(super) fn obstacle_of(&self, part: usize) -> usize {
         self.obstacles.parts[part][0]
     }

@@ -35,7 +35,6 @@ pub trait Motion<const N: usize> {
     /// Check that its joint angles are finite, and as many as the arm has.
     fn check(&self) -> Result<(), Error>;
 
-    /// Number of pieces.
     fn pieces(&self) -> usize;
 
     /// When it is at a part of a piece.

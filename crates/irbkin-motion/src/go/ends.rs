@@ -161,7 +161,6 @@ fn collides(
     GoFault::Collides { field, solutions, link, other: near.to_string(), depth, is_proven }
 }
 
-/// Check that joint angles at an end do not collide.
 pub(crate) fn check_free<const N: usize>(
     checker: &mut Checker<'_, N>,
     field: &'static str,

@@ -162,7 +162,6 @@ impl<const N: usize> Tree<N> {
         self.q.len() - 1
     }
 
-    /// The node that is nearest to a joint vector.
     fn nearest(&self, to: &[f64; N]) -> usize {
         let (mut best, mut least) = (0, f64::INFINITY);
         for (node, q) in self.q.iter().enumerate() {
@@ -174,7 +173,6 @@ impl<const N: usize> Tree<N> {
         best
     }
 
-    /// The joint vectors from a node to its root.
     fn to_root(&self, mut node: usize) -> Vec<[f64; N]> {
         let mut path = Vec::from([self.q[node]]);
         while self.parents[node] != node {

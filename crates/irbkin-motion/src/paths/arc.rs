@@ -93,7 +93,6 @@ impl Arc {
         (self.circle.y * cos - self.circle.x * sin) / self.circle.radius
     }
 
-    /// The orientation at a part of the way.
     pub(super) fn orientation(&self, part: f64) -> Rotation3<f64> {
         self.turns.at(&self.circle, part)
     }

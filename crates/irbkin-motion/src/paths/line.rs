@@ -71,7 +71,6 @@ impl Line {
         Ok(Self { start: start.translation.vector, way, length: way.norm(), turn })
     }
 
-    /// The position at a part of the way.
     pub(super) fn position(&self, part: f64) -> Vector3<f64> {
         self.start + self.way * part
     }

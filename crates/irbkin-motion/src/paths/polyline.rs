@@ -184,7 +184,6 @@ impl Leg {
         }
     }
 
-    /// The position at a part of the way.
     pub(super) fn position(&self, part: f64) -> Vector3<f64> {
         match self {
             Self::Line(line) => line.position(part),
@@ -201,7 +200,6 @@ impl Leg {
         }
     }
 
-    /// The orientation at a part of the way.
     fn orientation(&self, part: f64) -> Rotation3<f64> {
         match self {
             Self::Line(line) => line.turn.at(part),

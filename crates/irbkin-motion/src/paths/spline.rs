@@ -311,7 +311,6 @@ impl Curve {
         half * (WEIGHTS[0] * self.speed(middle) + outer)
     }
 
-    /// The parameter at a length.
     fn parameter(&self, length: f64) -> f64 {
         let panel = self.lengths[..PANELS - 1].partition_point(|end| *end <= length);
         let before = if panel == 0 { 0.0 } else { self.lengths[panel - 1] };

@@ -20,7 +20,6 @@ use irbkin::{Solution, Solutions};
 /// same branch without a doubt [1].
 const RIVAL: f64 = 4.0;
 
-/// The joint angles of each slot at one pose.
 type Slots = [Option<[f64; 6]>; MOST_SLOTS];
 
 impl PlannedArm<'_> {
@@ -236,7 +235,6 @@ pub(super) fn nearest_solution(
     each.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The joint angles of each slot in a cell.
 fn slots(grid: &Grid, layer: &Layer, cell: usize) -> Slots {
     core::array::from_fn(|slot| {
         if slot < grid.slots { layer.joints(grid, Node { slot, cell }) } else { None }

@@ -44,7 +44,6 @@ const AT_CHANGE: f64 = 1e-5;
 /// How far a step that was followed may end from the joint angles that it leads to [rad].
 pub(super) const ARRIVED: f64 = 1e-6;
 
-/// The motion between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Between {
     Continuous,

@@ -13,7 +13,6 @@ use irbkin::Pose;
 use irbkin::internal::thresholds::LIMIT_TOLERANCE;
 use irbkin::internal::{nearest_turn, rotation_vector};
 
-/// The motion of a free axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Motion {
     /// An external axis.
@@ -74,7 +73,6 @@ impl FreeAxis {
     }
 }
 
-/// Everything that is free.
 #[derive(Clone, Debug)]
 pub(super) struct Freedom {
     /// External axes, then tolerances, then the tool angle.
@@ -120,7 +118,6 @@ impl Freedom {
         self
     }
 
-    /// The whole grid, for a number of slots.
     pub(super) fn grid(&self, slots: usize) -> Grid {
         let (mut counts, mut cyclic) = ([1; MOST_FREE_AXES], [false; MOST_FREE_AXES]);
         let mut steps = Values::default();
@@ -202,7 +199,6 @@ impl Freedom {
         moved
     }
 
-    /// Whether values are inside their ranges.
     pub(super) fn allows(&self, values: &Values) -> bool {
         self.axes.iter().zip(values).all(|(axis, value)| {
             let [lower, upper] = axis.range;
@@ -268,7 +264,6 @@ impl Freedom {
     }
 }
 
-/// An orientation, turned by an angle about one of its axes.
 fn turned(rotation: &Rotation3<f64>, axis: ToolAxis, angle: f64) -> Rotation3<f64> {
     let [first, second] = axis.others();
     let (sin, cos) = angle.sin_cos();

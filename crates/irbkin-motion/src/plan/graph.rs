@@ -101,7 +101,6 @@ impl Grid {
         core::array::from_fn(|axis| first[axis] + numbers[axis] as f64 * self.steps[axis])
     }
 
-    /// The cells within a window around a cell.
     pub(super) fn around(&self, cell: usize, window: &Window) -> Around {
         let (mut first, mut sizes) = (self.numbers(cell), [1; MOST_FREE_AXES]);
         let (mut last, mut left) = (0, 1);
@@ -244,7 +243,6 @@ pub(super) struct Layer {
     /// Joint angles, each at its first turn [rad]: of each joint, in lanes of slots. NaN where no
     /// turn is inside the limits.
     pub(super) q: Vec<[Column; 6]>,
-    /// Nodes that the caller accepted.
     pub(super) accepted: Vec<usize>,
     /// Nodes that the caller rejected, as edges from themselves, and edges whose motion from the
     /// pose before does not pass its test: each with these joint angles [rad] and free axes.

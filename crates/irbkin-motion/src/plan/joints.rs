@@ -143,7 +143,6 @@ impl PlannedJoints {
         last
     }
 
-    /// The angle of a joint at a turn.
     pub(super) fn angle(&self, joint: usize, first: f64, turn: i32) -> f64 {
         let turn = turn + self.offset(joint);
         if turn == 0 { first } else { first + TAU * f64::from(turn) }
@@ -171,7 +170,6 @@ impl PlannedJoints {
         })
     }
 
-    /// Whether a joint vector is inside the limits.
     pub(super) fn contain(&self, q: &[f64; 6]) -> bool {
         (0..6).all(|joint| q[joint] >= self.low[joint] && q[joint] <= self.high[joint])
     }
@@ -315,7 +313,6 @@ impl TurnStates {
         self.turns.len()
     }
 
-    /// The state of turns, if they have one.
     pub(super) fn state(&self, turns: &[i32; 6]) -> Option<usize> {
         let (mut state, mut size) = (0, 1);
         for (count, turn) in self.joints.iter().zip(turns) {

@@ -109,7 +109,6 @@ impl Ladder<'_> {
         self.freedom.moved(self.time(layer), &before, &values)
     }
 
-    /// The bottleneck of an edge into a layer.
     pub(super) fn bottleneck(&self, layer: usize, [from, to]: [Node; 2]) -> f64 {
         let q_before = self.layers[layer - 1].joints(&self.grid, from).unwrap_or_default();
         let q = self.layers[layer].joints(&self.grid, to).unwrap_or_default();

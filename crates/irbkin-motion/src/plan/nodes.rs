@@ -45,7 +45,6 @@ pub(super) struct PlannedArm<'a> {
 }
 
 impl PlannedArm<'_> {
-    /// The whole grid of a layer.
     pub(super) fn grid(&self) -> Grid {
         self.freedom.grid(self.robot.slot_count())
     }
@@ -70,7 +69,6 @@ impl PlannedArm<'_> {
         Ok(layers)
     }
 
-    /// Solve every cell of a range of layers.
     pub(super) fn solve(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {
         let mut poses = Vec::with_capacity(PART);
         let mut nodes = Vec::with_capacity(PART);
@@ -111,7 +109,6 @@ impl PlannedArm<'_> {
         self.choose_ends(grid, layers, &dependent.either_end);
     }
 
-    /// Solve poses into slots.
     pub(super) fn solve_part(&self, poses: &[[f64; 16]], q: &mut [f64], status: &mut [u8]) {
         let slots = self.robot.slot_count();
         self.robot.ik_rows(Rows {

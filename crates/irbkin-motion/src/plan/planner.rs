@@ -21,7 +21,6 @@ use irbkin::internal::{largest, steps};
 /// How often a step with a jump is halved where there are free axes.
 const HALVINGS_OF_AXES: u32 = 6;
 
-/// The state of a plan that is being made.
 pub(super) struct Planner<'a> {
     pub(super) arm: PlannedArm<'a>,
     pub(super) grid: Grid,

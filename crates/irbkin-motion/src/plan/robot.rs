@@ -193,7 +193,6 @@ pub(super) fn freedoms(options: &PlanOptions) -> [Freedom; 2] {
         .map(|rotation| Freedom::new(&options.external, options.cone, rotation))
 }
 
-/// The poses of a path with their times.
 pub(super) fn waypoints(path: &[Pose], options: &PlanOptions) -> Vec<Waypoint> {
     let times = options.times_of(path.len());
     let points = path.iter().zip(times).enumerate();

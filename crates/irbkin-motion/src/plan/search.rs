@@ -31,7 +31,6 @@ impl Bound {
     }
 }
 
-/// A search through layers.
 pub(super) struct Search<'a> {
     pub(super) ladder: Ladder<'a>,
     pub(super) states: &'a TurnStates,

@@ -140,7 +140,6 @@ impl Seven<'_> {
         self.locked.locked_index()
     }
 
-    /// The options of the six joints.
     fn options(&self, options: &PlanOptions<7>) -> Result<PlanOptions, Error> {
         check_weights(&options.weights)?;
         let mut external = Vec::new();

@@ -73,7 +73,6 @@ impl<'a> Windows<'a> {
         true
     }
 
-    /// The window into a layer.
     pub(super) fn at(&self, layer: usize) -> Window {
         if self.ladder.grid.cells == 1 {
             return Window::default();

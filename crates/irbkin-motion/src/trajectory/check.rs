@@ -51,7 +51,6 @@ pub(super) fn check_axes(limits: &[AxisLimits], dof: usize) -> Result<(), Error>
     Ok(())
 }
 
-/// Check the angles of a joint vector.
 pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
     if q.is_empty() {
         return Err(MotionFault::NoJoints { field }.into());

@@ -14,7 +14,6 @@ use irbkin::Pose;
 use irbkin::internal::thresholds::MOST_ANGLE;
 use irbkin::pose::to_euler_zyx as pose_to_euler_zyx;
 
-/// A joint that turns.
 #[derive(Clone, Copy)]
 pub(super) struct Hinge {
     /// The frame of its link in the parent at a joint angle of zero.

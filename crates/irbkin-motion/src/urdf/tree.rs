@@ -132,7 +132,6 @@ impl<'a> Tree<'a> {
         Ok(tree)
     }
 
-    /// The index of a link.
     pub(super) fn link(&self, name: &str) -> Option<usize> {
         self.index.get(name).copied()
     }
@@ -210,7 +209,6 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// A name for a message.
 pub(super) fn quoted(name: &str) -> String {
     format!("{name:?}")
 }

@@ -201,7 +201,6 @@ fn named(error: Error) -> PyErr {
     })
 }
 
-/// The rows as arrays.
 fn table<const N: usize>(py: Python<'_>, rows: &[TableRow<N>]) -> PyResult<TargetTable> {
     let joints = rows.iter().flat_map(|row| row.q.unwrap_or([f64::NAN; N]));
     let integers =

@@ -270,7 +270,6 @@ impl RapidModule {
     }
 }
 
-/// A number of things, in words.
 pub(super) fn counted(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }

@@ -228,7 +228,6 @@ impl<'m> Loading<'_, 'm> {
         }
     }
 
-    /// Look for the names of an expression.
     fn names(&mut self, expression: &Expression<'_>, asked: Asked) {
         if let Some((name, ..)) = expression.reference() {
             self.note_name(name, asked);

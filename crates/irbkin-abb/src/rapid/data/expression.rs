@@ -141,11 +141,9 @@ pub(crate) struct Reference<'a> {
 pub(crate) struct Call<'a> {
     pub(crate) name: Name<'a>,
     pub(crate) arguments: Arguments<'a>,
-    /// Components of the result.
     pub(crate) components: Vec<Name<'a>>,
 }
 
-/// The arguments of a function, an instruction or a call.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Arguments<'a> {
     pub(crate) required: Vec<Expression<'a>>,

@@ -170,7 +170,6 @@ pub(crate) fn are_finite(atoms: &Atoms) -> bool {
 
 /// A value in memory that consists of atoms.
 pub(crate) trait Part: Sized {
-    /// Append its atoms.
     fn put(&self, atoms: &mut Atoms);
 
     /// Make it of the next atoms; `None` if they are of other types.

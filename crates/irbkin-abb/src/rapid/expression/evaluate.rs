@@ -40,7 +40,6 @@ impl From<Reason> for Stop {
     }
 }
 
-/// The context of an expression.
 #[derive(Clone, Copy)]
 pub(crate) struct Evaluator<'r, 'a> {
     pub(crate) text: &'a str,
@@ -169,7 +168,6 @@ impl Evaluator<'_, '_> {
         Ok(())
     }
 
-    /// Append the parts of an aggregate, one for each component.
     fn fill_aggregate(
         &self,
         expression: &Expression<'_>,
@@ -234,7 +232,6 @@ pub(super) fn whole(value: f64) -> Option<i32> {
     (value - f64::from(whole) == 0.0).then_some(whole)
 }
 
-/// A positive whole number as a size or an index.
 pub(crate) fn positive_whole(value: f64) -> Option<usize> {
     /// Above, whole numbers cannot be distinguished.
     const MOST: f64 = 9_007_199_254_740_992.0;
@@ -385,7 +382,6 @@ impl Evaluator<'_, '_> {
         })
     }
 
-    /// Append the value of a name with indices and components.
     pub(super) fn fill_reference(
         &self,
         expression: &Expression<'_>,

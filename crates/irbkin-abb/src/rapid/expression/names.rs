@@ -112,7 +112,6 @@ impl Cause<'_> {
     }
 }
 
-/// A name in lower case, as names are looked up.
 pub(crate) fn lower(name: &str) -> Cow<'_, str> {
     if name.bytes().all(|byte| byte.is_ascii() && !byte.is_ascii_uppercase()) {
         Cow::Borrowed(name)
@@ -174,7 +173,6 @@ pub(crate) fn is_constant(lower: &str) -> bool {
         || FAMILIES.split(' ').any(|begin| lower.starts_with(begin))
 }
 
-/// The datum of RAPID's own with a name in lower case.
 pub(crate) fn predefined(lower: &str) -> Option<Value> {
     match lower.as_bytes().first()? {
         b'p' if lower == "pi" => Some(Value::Num(core::f64::consts::PI)),

@@ -176,7 +176,6 @@ impl Module {
     }
 }
 
-/// The statement of a move, by its index.
 fn of_move((index, step): (usize, &Move)) -> Statement {
     let routine = step.routine.as_deref().map(Arc::from);
     let (kind, text) = (StatementKind::Move(index), String::new());

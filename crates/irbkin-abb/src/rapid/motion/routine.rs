@@ -143,7 +143,6 @@ pub(in crate::rapid) struct Followed<'m, const N: usize> {
     pub(in crate::rapid) goals: Vec<Goal<'m, N>>,
     samples: Samples<N>,
     pub(in crate::rapid) made: Vec<Made<N>>,
-    /// Findings on goals.
     pub(in crate::rapid) findings: Vec<Finding>,
     pub(in crate::rapid) unfollowed: Vec<Finding>,
 }

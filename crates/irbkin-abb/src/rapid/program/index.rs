@@ -64,7 +64,6 @@ impl<'m> Index<'m> {
         names
     }
 
-    /// A routine of a module, by its name in lower case.
     fn routine(&self, module: usize, lower: &str) -> Option<&'m Routine> {
         self.routines.get(module)?.get(lower).copied()
     }
@@ -179,12 +178,10 @@ impl<'m> Index<'m> {
         own.or_else(global).filter(|_| !self.modules.iter().any(is_assigned))
     }
 
-    /// The statements of a routine, by its name in lower case.
     pub(in crate::rapid) fn body(&self, module: usize, lower: &str) -> Option<&Body<'m>> {
         self.bodies.get(module)?.get(lower)
     }
 
-    /// The parameters of a routine, by its name in lower case.
     pub(in crate::rapid) fn parameters(&self, module: usize, lower: &str) -> &'m [Parameter] {
         self.routine(module, lower).map_or(&[], |it| &it.parameters)
     }

@@ -106,7 +106,6 @@ impl State {
         }
     }
 
-    /// Whether the same is known.
     pub(super) fn knows_as(&self, other: &Self) -> bool {
         self.globals == other.globals && self.locals == other.locals
     }

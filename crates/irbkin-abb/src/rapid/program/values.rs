@@ -234,7 +234,6 @@ impl<'s> Scope<'s, '_> {
         self.evaluate(text, &argument(text)?)
     }
 
-    /// The value of an expression of a statement, of a type.
     pub(super) fn value(
         &self,
         text: &str,

@@ -256,7 +256,6 @@ impl<'p, 'm> Walk<'p, 'm> {
         self.state.forget_locals(|name| locals.contains(name));
     }
 
-    /// The names and values that are known here.
     pub(super) fn scope(&self) -> Scope<'_, 'm> {
         Scope {
             calls: self,

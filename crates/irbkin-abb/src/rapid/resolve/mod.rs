@@ -19,7 +19,6 @@ use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::reader::Written;
 use crate::rapid::text::fault::RapidFault;
 
-/// The module of a text with every name resolved.
 pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
     let Written {
         text,

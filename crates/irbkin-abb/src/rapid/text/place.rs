@@ -34,7 +34,6 @@ impl Place {
         Self { byte, line, column: 1 + characters(text.get(begin..byte).unwrap_or_default()) }
     }
 
-    /// The place of a later byte.
     fn advanced(self, text: &str, byte: usize) -> Self {
         let passed = text.get(self.byte..byte).unwrap_or_default();
         let lines = newlines(passed.as_bytes());
@@ -63,7 +62,6 @@ pub(crate) fn fault_at(text: &str, near: Place, byte: usize, kind: RapidFaultKin
     RapidFault { line, column, kind }
 }
 
-/// The first characters of a piece of text, for a message.
 pub(crate) fn excerpt(text: &str) -> String {
     let mut short: String = text.chars().take(REPEATED).collect();
     if short.len() < text.len() {

@@ -22,7 +22,6 @@ pub(crate) const LONGEST_STRING: usize = 2048;
 /// Characters at the end of a file: blanks, and what some systems append to the text.
 const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
 
-/// RAPID's punctuation.
 const SYMBOLS: &[u8] = b"[](){},;.:\\*+-/=<>|%?";
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +60,6 @@ impl Token {
 pub(crate) struct Tokens<'a> {
     pub(crate) text: &'a str,
     next: Token,
-    /// End of the previous token.
     pub(crate) last_end: usize,
     last_placeholder: Option<usize>,
     /// Beginning of the first token or of the header.
@@ -79,7 +77,6 @@ pub(crate) struct Tokens<'a> {
 pub(crate) struct Called {
     /// The first byte of its statement or, of a function, of its name.
     pub(crate) start: usize,
-    /// Bytes of its name.
     pub(crate) name: Range<usize>,
     pub(crate) is_function: bool,
     /// The number of its required arguments.

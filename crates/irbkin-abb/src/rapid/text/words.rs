@@ -83,7 +83,6 @@ macro_rules! words {
 }
 pub(crate) use words;
 
-/// Whether a word is one of RAPID's own.
 pub(crate) fn is_reserved(word: &str) -> bool {
     let capitals = || word.bytes().map(|byte| byte.to_ascii_uppercase());
     RESERVED.binary_search_by(|own| own.bytes().cmp(capitals())).is_ok()

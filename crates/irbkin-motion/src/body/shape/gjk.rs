@@ -167,7 +167,6 @@ impl Simplex {
         self.count += 1;
     }
 
-    /// The weighted mean.
     #[inline(always)]
     fn mean(&self, of: impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
         let mut sum = Vector3::new(0.0, 0.0, 0.0);

@@ -152,7 +152,6 @@ impl RoundedHull {
         self.0.spread + self.0.radius
     }
 
-    /// The hull in another frame.
     pub(crate) fn moved(&self, pose: &Pose) -> Self {
         let points: Vec<_> = self.points().map(|point| placed(pose, &point.into())).collect();
         let core = self.core().map(|core| core.moved(pose));

@@ -13,7 +13,6 @@ pub(super) type Nearest = (f64, [Vector3<f64>; 2]);
 /// Farther than any pair of points.
 pub(super) const NOWHERE: Nearest = (f64::INFINITY, [Vector3::new(0.0, 0.0, 0.0); 2]);
 
-/// The nearer of two pairs of points.
 pub(super) fn nearer(one: Nearest, from: Vector3<f64>, to: Vector3<f64>) -> Nearest {
     let square = (from - to).norm_squared();
     if square < one.0 { (square, [from, to]) } else { one }

@@ -25,7 +25,6 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// The box around points.
     pub(crate) fn of<'a>(points: impl IntoIterator<Item = &'a Vector3<f64>>) -> Self {
         let empty = Vector3::repeat(f64::INFINITY);
         let around = |own: Self, point: &Vector3<f64>| Self {
@@ -93,7 +92,6 @@ pub(super) fn above(distance: f64) -> f64 {
     distance * distance * (1.0 + BOUND) + f64::MIN_POSITIVE
 }
 
-/// A box and what is in it.
 #[derive(Clone, Debug, PartialEq)]
 struct Node {
     bounds: Bounds,
@@ -116,7 +114,6 @@ pub(crate) struct Tree {
 }
 
 impl Tree {
-    /// A tree of items, by their boxes.
     pub(crate) fn new(boxes: &[Bounds], interrupt: Interrupt<'_>) -> Result<Self, Interrupted> {
         let mut items: Vec<usize> = (0..boxes.len()).collect();
         let mut nodes = Vec::new();
