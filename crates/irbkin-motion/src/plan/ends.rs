@@ -12,7 +12,6 @@ use irbkin::internal::lanes::nearest_whole;
 use irbkin::internal::{at_limit, check_seed, nearest_turn};
 use irbkin::{Pose, PoseDifference};
 
-/// Joint angles at an end of the path, as a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EndNode {
     pub(super) q: [f64; 6],

@@ -94,7 +94,6 @@ impl Written {
     }
 }
 
-/// A finder of confdata in the texts of a program.
 pub(super) struct Finder<'a, 'm> {
     pub(super) program: &'a Program<'m>,
     pub(super) sources: &'a [&'a str],

@@ -138,13 +138,11 @@ fn start_of<T: Copy>(from: Option<(usize, usize)>, ends: &[Vec<T>]) -> Option<T>
     ends.get(run)?.get(moves.checked_sub(1)?).copied()
 }
 
-/// A run whose confdata are solved anew.
 struct PortedRun<'m, const N: usize> {
     from: Option<(usize, usize)>,
     goals: Vec<Goal<'m, N>>,
     /// The number of the confdata of each target.
     tags: Vec<Option<usize>>,
-    /// How the arm before made each move.
     old: Vec<Before<N>>,
     /// The joints that meet each target inside the limits, those nearest to the old ones.
     candidates: Vec<Vec<[f64; N]>>,

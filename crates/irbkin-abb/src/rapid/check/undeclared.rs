@@ -236,7 +236,6 @@ fn is_slip(a: &str, b: &str) -> bool {
     }
 }
 
-/// The types of data that are looked for.
 const TYPES: [DataType; 4] =
     [DataType::RobTarget, DataType::JointTarget, DataType::ToolData, DataType::WobjData];
 

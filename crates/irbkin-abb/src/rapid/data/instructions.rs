@@ -1,6 +1,5 @@
 //! The effects of instructions on moves.
 
-/// The effect of an instruction on the moves of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effect {
     Nothing,

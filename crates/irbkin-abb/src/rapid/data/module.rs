@@ -173,7 +173,6 @@ pub struct Module {
     pub(crate) moves: Vec<Move>,
     /// In the order of the text, with the parts that are not read.
     pub(crate) statements: Vec<Statement>,
-    /// The faults of the text that it was read from.
     pub(crate) faults: Vec<RapidFault>,
     /// Data of the module itself by their names in lower case.
     pub(crate) index: BTreeMap<String, usize>,

@@ -34,7 +34,6 @@ pub(super) const SEARCH_EXTERNAL: Layout = &[Others, Target, Speed];
 /// A process comes first.
 pub(super) const AFTER: Layout = &[Others, Target, Speed, Zone, Tool];
 
-/// An instruction that moves and is read.
 pub(crate) struct MoveInstruction {
     pub(crate) name: &'static str,
     pub(crate) way: MoveKind,

@@ -38,7 +38,6 @@ pub(super) enum Here {
 /// Where the robot is, or why that is unknown; while ConfL or ConfJ is off with the written confdata.
 pub(super) type Place = Result<Rc<(Target, ToolIn)>, &'static str>;
 
-/// The displacement of the targets of moves.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Displacement {
     Nothing,

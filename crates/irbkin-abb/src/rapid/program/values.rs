@@ -30,7 +30,6 @@ use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
 use crate::rapid::text::words::words_of;
 
-/// The calls that expressions make.
 pub(super) trait Calls {
     /// What a function of the program returns, as it is called in a text.
     fn returned(&self, text: &str, call: &Call<'_>) -> Option<Known>;
@@ -49,7 +48,6 @@ pub(super) struct Scope<'s, 'm> {
     pub(super) takes_last: Cell<bool>,
     /// The tools for those that nothing declares.
     pub(super) tools: Option<&'s GivenTools>,
-    /// What is taken of several values.
     pub(super) choices: Choices,
     /// What calls of functions return, by their texts.
     pub(super) returned: RefCell<BTreeMap<String, Option<Known>>>,

@@ -24,7 +24,6 @@ use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::{Place, fault_at};
 use irbkin::internal::Names as NamesOf;
 
-/// The state of resolving the data of a module.
 pub(super) struct Resolver<'a> {
     pub(super) text: &'a str,
     pub(super) declared: &'a [Declared<'a>],
@@ -309,12 +308,10 @@ impl<'a> Causes<'a> {
         }
     }
 
-    /// The cause for some part of a datum.
     pub(crate) fn of_datum(&self, datum: usize) -> Option<Cause<'a>> {
         self.of_atoms(datum, &ALL)
     }
 
-    /// The cause for some of these atoms of a datum.
     fn of_atoms(&self, datum: usize, atoms: &Range<usize>) -> Option<Cause<'a>> {
         let mut causes = self.of_data.get(&datum)?.iter();
         let meets = |own: &Range<usize>| own.start < atoms.end && atoms.start < own.end;

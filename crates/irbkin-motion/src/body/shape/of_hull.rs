@@ -35,7 +35,6 @@ impl Convex for Cylinder {
 }
 
 impl Shape {
-    /// How far a hull in a frame is from the shape.
     pub(crate) fn separation_of_hull(
         &self,
         hull: &RoundedHull,
