@@ -8,6 +8,7 @@
 // If another crate of the build links std, its float methods shadow those imported for no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
+#[macro_use]
 extern crate alloc;
 #[cfg(any(test, feature = "std"))]
 extern crate std;

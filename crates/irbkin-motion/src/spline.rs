@@ -1,7 +1,6 @@
 //! Splines through rows of numbers, cubic and quintic: their pieces by coefficients from the
 //! constant upwards (docs/theory/motion.md, eq. 1 to 3, 9 to 12).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use nalgebra::{Matrix2, Vector2};

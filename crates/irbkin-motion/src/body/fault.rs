@@ -1,6 +1,5 @@
 //! Shapes, bodies and cells that are refused.
 
-use alloc::format;
 use alloc::string::String;
 
 use thiserror::Error;

@@ -1,6 +1,5 @@
 //! Many joint vectors in a cell.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use irbkin::batch::{Batch, Margins};

@@ -69,7 +69,6 @@ impl<S: Simd> Drift<S> {
 
 #[cfg(test)]
 mod tests {
-    use alloc::vec;
     use core::array;
     use core::f64::consts::PI;
 

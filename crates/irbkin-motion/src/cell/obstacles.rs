@@ -1,7 +1,6 @@
 //! A cell: obstacles in the frame of the world.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::format;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
 use core::ops::Range;

@@ -3,7 +3,6 @@
 //! Boxes of joint angles that contain parts of the motion are proven free (docs/theory/cell.md,
 //! eq. 2), eight at a time; a part that is not is halved.
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 use core::mem::replace;

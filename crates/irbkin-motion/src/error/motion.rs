@@ -1,6 +1,5 @@
 //! Arguments of trajectories and paths that are refused.
 
-use alloc::format;
 use alloc::string::String;
 
 use thiserror::Error;

@@ -1,7 +1,6 @@
 //! The joint vectors at which a free motion may begin and end.
 
 use alloc::string::ToString as _;
-use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 

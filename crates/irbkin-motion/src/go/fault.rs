@@ -1,6 +1,5 @@
 //! Free motions that are not found.
 
-use alloc::format;
 use alloc::string::String;
 
 use thiserror::Error;

@@ -1,7 +1,6 @@
 //! The answer of a plan: joints at each pose, breaks, and the reasons for them.
 
 use alloc::boxed::Box;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;

@@ -1,7 +1,6 @@
 //! Linear equations of unknowns that are coupled to near ones only: a banded Cholesky factorization
 //! (Golub, Van Loan, Matrix Computations, section 4.3.5).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 #[cfg(not(feature = "std"))]

@@ -1,7 +1,6 @@
 //! The best joint path through the layers: how wide its windows need to be, and the turns of which
 //! joints need to be counted; the best closed one (docs/theory/plan.md, sections 3, 6).
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 

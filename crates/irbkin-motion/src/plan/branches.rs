@@ -1,7 +1,6 @@
 //! Branches from one layer to the next: the edges between two of them, the order of the slots of
 //! arms whose slots are ordinals, the limits at singular poses (docs/theory/plan.md, sections 1, 2).
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 use core::ops::Range;

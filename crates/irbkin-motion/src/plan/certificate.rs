@@ -1,7 +1,6 @@
 //! Whether an arm can go from node to node without a jump: the steps of a joint path are halved
 //! until they shrink, as `follow` does (docs/theory/plan.md, eq. 8).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use nalgebra::Translation3;

@@ -1,7 +1,6 @@
 //! The ladder graph of a plan: at each pose a layer of nodes, every branch at every value of what
 //! is free (docs/theory/plan.md, section 1).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::error::Error;

@@ -1,6 +1,5 @@
 //! Joints of a plan: their limits, their turns, the cost of a step, the cost of joint angles.
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 

@@ -1,7 +1,6 @@
 //! The nodes of layers: inverse kinematics of everything that is free, in lanes
 //! (docs/theory/plan.md, eq. 1, 2).
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 

@@ -1,7 +1,6 @@
 //! Finer grids around a joint path, and long paths: planned along some of their poses first, then
 //! along more and more of them in bands around that plan (docs/theory/plan.md, section 5).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::answer::PlanError;

@@ -1,7 +1,6 @@
 //! `Arm::plan` of six joints.
 
 use alloc::boxed::Box;
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::answer::{NoPlan, Plan, PlanBreak, PlanError};

@@ -1,7 +1,6 @@
 //! The cost of a joint path whose free axes are off their grid: velocities, accelerations, walls
 //! (docs/theory/plan.md, section 5, eq. 9).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 #[cfg(not(feature = "std"))]

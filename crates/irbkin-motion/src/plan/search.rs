@@ -1,7 +1,6 @@
 //! The cheapest joint path through the layers by dynamic programming: exact, linear in the number
 //! of layers, no edge stored (docs/theory/plan.md, eq. 5, 6).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::graph::{Edge, Node, Window};

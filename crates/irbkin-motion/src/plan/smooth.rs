@@ -1,7 +1,6 @@
 //! Free axes along a joint path, smoothed: the search leaves them on a grid
 //! (docs/theory/plan.md, section 5).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::answer::PlanError;

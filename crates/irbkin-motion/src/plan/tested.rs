@@ -1,6 +1,5 @@
 //! The tests that joint vectors of a plan must pass: the caller's own, and a cell's.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::answer::StrandReason;

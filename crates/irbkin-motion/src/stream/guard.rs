@@ -1,6 +1,5 @@
 //! The guard: references in, set points out.
 
-use alloc::format;
 use alloc::string::{String, ToString as _};
 
 use super::ahead::Ahead;

@@ -1,6 +1,5 @@
 //! Why a reference was refused.
 
-use alloc::format;
 use alloc::string::String;
 
 use thiserror::Error;

@@ -12,7 +12,6 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::piece::{Piece, Strips};

@@ -5,7 +5,6 @@
 use nalgebra::ComplexField as _;
 
 use alloc::collections::VecDeque;
-use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 

@@ -1,6 +1,5 @@
 //! A trajectory of several joints: a polynomial in time for each joint between two knots.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 #[cfg(not(feature = "std"))]

@@ -4,7 +4,6 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 

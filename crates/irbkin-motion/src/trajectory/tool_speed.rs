@@ -6,7 +6,6 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::check::{check_duration, check_finite, check_path_limits, check_positive, check_rows};

@@ -1,7 +1,6 @@
 //! URDF texts that are refused.
 
 use alloc::boxed::Box;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 

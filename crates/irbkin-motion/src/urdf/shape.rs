@@ -7,7 +7,6 @@
 //! XML, the parser stops no later than where the two could differ.
 
 use alloc::borrow::ToOwned;
-use alloc::format;
 use alloc::string::String;
 
 use crate::urdf::fault::UrdfFault;

@@ -10,7 +10,6 @@
 use core::f64::consts::FRAC_PI_2;
 
 use alloc::borrow::ToOwned;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 

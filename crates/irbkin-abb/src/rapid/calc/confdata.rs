@@ -1,6 +1,5 @@
 //! How far joints are from the quarters of a configuration.
 
-use alloc::format;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 

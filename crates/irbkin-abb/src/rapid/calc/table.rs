@@ -1,7 +1,6 @@
 //! The joint angles of every target of a module.
 
 use alloc::boxed::Box;
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 

@@ -1,7 +1,6 @@
 //! Findings on targets and on the paths between them, in words.
 
 use alloc::boxed::Box;
-use alloc::format;
 use alloc::string::{String, ToString};
 
 use crate::Error;

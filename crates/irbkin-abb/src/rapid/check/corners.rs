@@ -1,6 +1,5 @@
 //! Corners of moves that follow one another: zones, targets next to each other, circles.
 
-use alloc::format;
 use alloc::string::ToString;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;

@@ -1,7 +1,6 @@
 //! Findings in the order of the text, each once and in one for each cause.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 

@@ -2,7 +2,6 @@
 //! types, constants that are assigned, functions that return nothing, names declared twice.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 

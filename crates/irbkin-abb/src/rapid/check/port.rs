@@ -1,6 +1,5 @@
 //! A program for another arm: its confdata are solved anew along its moves (docs/guide/replace.md).
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::Error;

@@ -1,7 +1,6 @@
 //! Tasks of a controller that wait for each other forever.
 
 use alloc::collections::{BTreeMap, BTreeSet, VecDeque};
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 

@@ -1,7 +1,6 @@
 //! Calls of what nothing declares, and calls with other arguments than the routine has.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 

@@ -1,7 +1,6 @@
 //! World zones that stop the robot: volumes that the TCP must not enter, and spaces of the axes.
 //! They count for every move, if their corners are constant and no statement switches them off.
 
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 

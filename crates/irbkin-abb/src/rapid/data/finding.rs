@@ -1,6 +1,5 @@
 //! Findings on moves: a code, a place and words.
 
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;

@@ -1,6 +1,5 @@
 //! The arguments of a call compared with the parameters of a routine.
 
-use alloc::format;
 use alloc::string::String;
 
 use crate::rapid::text::place::excerpt;

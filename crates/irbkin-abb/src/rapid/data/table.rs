@@ -1,7 +1,5 @@
 //! RAPID's own instructions and functions: their arguments, and what they do to motion.
 
-use alloc::format;
-
 use super::instructions::Effect::{
     self, Displaces, Jumps, Leaves, Moves, Nothing, Offsets, Returns, Sets, Stops, Waits,
 };

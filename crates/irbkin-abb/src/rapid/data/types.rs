@@ -1,7 +1,6 @@
 //! The types of RAPID: their names and components, and the atoms that values consist of.
 
 use alloc::borrow::Cow;
-use alloc::format;
 use alloc::string::String;
 use arrayvec::ArrayVec;
 use core::fmt;

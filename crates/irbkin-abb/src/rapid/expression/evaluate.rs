@@ -4,7 +4,6 @@
 use nalgebra::ComplexField as _;
 
 use alloc::borrow::Cow;
-use alloc::format;
 use alloc::string::{String, ToString};
 use core::ops::Range;
 

@@ -3,7 +3,6 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 

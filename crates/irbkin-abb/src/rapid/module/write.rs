@@ -1,7 +1,6 @@
 //! Modules as RAPID text, and values replaced in a text without any other change.
 
 use alloc::collections::BTreeMap;
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt::{self, Write as _};

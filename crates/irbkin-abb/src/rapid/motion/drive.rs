@@ -1,6 +1,5 @@
 //! Go through the moves of a routine in order and follow each of them.
 
-use alloc::format;
 use alloc::vec::Vec;
 
 use super::goal::{Conf, Goal, Place};

@@ -6,7 +6,6 @@ use nalgebra::ComplexField as _;
 use alloc::collections::BTreeSet;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use alloc::{format, vec};
 
 use super::drive::{Drive, Made, MotionOptions};
 use super::goal::Goal;

@@ -1,7 +1,6 @@
 //! Calls of routines: arguments put in for parameters, and what is assigned to them given back.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

@@ -1,7 +1,6 @@
 //! Data that have one of several known values: in each case one, by the answers to questions that
 //! the text leaves open, such as which part of a branch is executed.
 
-use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -1,7 +1,6 @@
 //! The knowledge at a place of a program: values, settings, displacements, where the robot is.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

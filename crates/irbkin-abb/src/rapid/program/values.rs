@@ -1,7 +1,6 @@
 //! Values at a place of a program: names looked up, arguments evaluated, assignments made.
 
 use alloc::collections::BTreeMap;
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::cell::{Cell, RefCell};

@@ -1,7 +1,6 @@
 //! Declarations of data.
 
 use alloc::boxed::Box;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 

@@ -1,6 +1,5 @@
 //! Types that a program defines: records and aliases.
 
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 

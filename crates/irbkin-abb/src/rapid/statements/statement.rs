@@ -1,7 +1,6 @@
 //! A module's statements in sequence: declarations, moves and routines are read, everything else is
 //! listed as not read.
 
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 

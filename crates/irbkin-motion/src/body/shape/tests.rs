@@ -2,7 +2,6 @@
 //! a solid touches it.
 
 use alloc::string::ToString;
-use alloc::vec;
 use alloc::vec::Vec;
 
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
