@@ -48,10 +48,7 @@ record! {
         /// column, both from 1.
         related: Py<PyTuple>,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// A place at which a program moves, checked.
     CheckedMove {
         /// Index of the module among those that are checked.
@@ -74,10 +71,7 @@ record! {
         /// Whether it is checked with the saved value of a PERS or with a given tool in some pass.
         assumed: bool,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// The result of a check: findings on moves, and the moves.
     Checked {
         /// The findings, in the order of the modules and of their texts: a tuple of `Finding`.

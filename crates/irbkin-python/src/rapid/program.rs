@@ -34,10 +34,7 @@ record! {
         /// Column of the text, from 1.
         column: usize,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// A routine of a module.
     Routine {
         /// Its kind: "PROC", "FUNC" or "TRAP".
@@ -51,10 +48,7 @@ record! {
         /// Column of the text, from 1.
         column: usize,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// An argument as it is written, without its name, and its value by the declarations.
     ///
     /// Data that the module assigns have no value.
@@ -66,10 +60,7 @@ record! {
         /// Why the value is unknown; None if it is known.
         reason: Option<String>,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// How a move is made: by the instructions before it in its routine, or else by the settings
     /// that a program starts with.
     MotionSettings {
@@ -83,10 +74,7 @@ record! {
         /// "Wrist45", "Wrist46" or "Wrist56".
         cir_path_mode: String,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// A move instruction.
     Move {
         /// How it moves: "MoveJ", "MoveL", "MoveC", "MoveAbsJ", or "MoveExtJ" for external axes
@@ -129,10 +117,7 @@ record! {
         /// each, and its text.
         extra: Py<PyTuple>,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// A move of a motion.
     MotionMove {
         /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
@@ -159,10 +144,7 @@ record! {
         /// the robot carries.
         tool: Array,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// A part of the text that is not read.
     Skipped {
         /// Line of the text, from 1.
@@ -176,10 +158,7 @@ record! {
         /// The part as it is written.
         text: String,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// A fault of a text that was read in spite of it. `str` has the place, too.
     TextFault {
         /// Line of the text, from 1.
@@ -189,10 +168,7 @@ record! {
         /// The fault in words, without the place.
         message: String,
     }
-}
 
-record! {
-    "irbkin.rapid";
     /// The joint angles of m targets.
     TargetTable {
         /// The instruction of each target, or "robtarget".
