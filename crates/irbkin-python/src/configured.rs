@@ -21,7 +21,6 @@ use irbkin::report::ConfigurationRule;
 use irbkin::{Configuration, ConfigurationRequest, Robot};
 
 #[pymethods]
-#[expect(non_snake_case, reason = "T is the name that users pass")]
 impl PyRobot {
     /// ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the branch.
     ///
@@ -123,7 +122,6 @@ impl PyRobot {
     ///     TypeError, ValueError: Another fallback, or one without a seed; a seed alone where the
     ///         configuration names one solution.
     #[pyo3(signature = (T, configuration, *, arm_angle=None, fallback=None, seed=None, every=false, out=None, threads=1))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn ik_configured<'py>(
         &self,
         T: &Bound<'py, PyAny>,

@@ -21,7 +21,6 @@ use irbkin::thresholds::WRIST_ZONE;
 use irbkin::{Error, Interrupt, Pose};
 
 #[pymethods]
-#[expect(non_snake_case, reason = "T is the name that users pass")]
 impl PyRobot {
     /// One continuous joint path along a path of poses: inside the limits, turns considered,
     /// through singularities without a jump where there is a way. Of seven joints each step is the
@@ -57,7 +56,6 @@ impl PyRobot {
     ///         another mode than "through" for seven joints.
     ///     ValueError: Another `singularity_mode`.
     #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None, out=None, threads=1))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn follow<'py>(
         &self,
         T: &Bound<'py, PyAny>,
@@ -118,7 +116,6 @@ fn check_through(mode: SingularityMode, name: &str) -> PyResult<()> {
 }
 
 /// Follow paths of poses, shape (..., m, 4, 4), each from its seed by a function.
-#[expect(non_snake_case, reason = "T is the name that users pass")]
 fn follow<const N: usize>(
     T: &Bound<'_, PyAny>,
     seeds: &Bound<'_, PyAny>,

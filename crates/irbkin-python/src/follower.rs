@@ -70,7 +70,6 @@ impl<const N: usize> Steps<N> {
 }
 
 #[pymethods]
-#[expect(non_snake_case, reason = "T is the name that users pass")]
 impl PyFollower {
     #[new]
     #[pyo3(signature = (robot, seed, weights=None))]

@@ -56,7 +56,6 @@ impl PyRobot {
     ///     InvalidMotionError: A limit or a time that is not positive.
     ///     InvalidModelError: The robot has no body.
     #[pyo3(signature = (start, goal, cell=None, *, seconds=2.0, seed=0, max_velocity=None, max_acceleration=None, steps=100))]
-    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn go(
         &self,
         start: &Bound<'_, PyAny>,

@@ -87,7 +87,6 @@ pub(super) struct PyGuard {
 impl PyGuard {
     #[new]
     #[pyo3(signature = (robot, *, cycle, start, max_velocity=None, max_acceleration, max_jerk=None, cell=None, margin=0.0, max_tool_speed=None, on_violation="brake", hold=0.0))]
-    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         robot: &Bound<'_, PyRobot>,
         cycle: f64,

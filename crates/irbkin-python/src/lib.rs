@@ -1,4 +1,9 @@
 //! The Python module `irbkin._core`: convert, call, convert.
+#![allow(
+    non_snake_case,
+    clippy::too_many_arguments,
+    reason = "arguments are Python's keywords, a pose is T"
+)]
 
 /// Add classes and functions to a module.
 macro_rules! add {

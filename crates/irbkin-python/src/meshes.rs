@@ -120,7 +120,6 @@ impl PyShape {
     ///     InvalidModelError: The shape is more than 100 m away then.
     ///     InvalidPoseError: T is not a rigid transform.
     #[pyo3(signature = (T))]
-    #[expect(non_snake_case, reason = "the name of a pose")]
     fn moved(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(self.0.moved(&read_pose(Some(T))?).map_err(exception)?))
     }

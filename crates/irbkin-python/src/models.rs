@@ -93,7 +93,6 @@ impl PyRobot {
     #[pyo3(signature = (
         *, a1, a2, b, c1, c2, c3, c4, offsets=None, signs=None, limits=None, name=""
     ))]
-    #[expect(clippy::too_many_arguments, reason = "the parameters of the form have these names")]
     fn from_opw(
         a1: f64,
         a2: f64,

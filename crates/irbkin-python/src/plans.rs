@@ -23,7 +23,6 @@ use irbkin::{Interrupt, Robot};
 use irbkin_motion::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions};
 
 #[pymethods]
-#[expect(non_snake_case, reason = "T is the name that users pass")]
 impl PyRobot {
     /// The best joint path along a path of poses, over every branch, every turn of the joints and,
     /// with `rotation`, every angle of the tool.
@@ -102,7 +101,6 @@ impl PyRobot {
     ///     TypeError: redundancy of an arm of six joints.
     ///     Exception: Whatever `accept` raises.
     #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, cell=None, carrier=None, tolerance=None, redundancy=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, objective=None, max_acceleration=None, progress=None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn plan<'py>(
         &self,
         T: &Bound<'py, PyAny>,

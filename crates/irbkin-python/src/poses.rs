@@ -157,7 +157,6 @@ type TwoArrays<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
 ///     InvalidPoseError: A wrong shape, or a single pose that is not a rigid transform.
 #[pyfunction]
 #[pyo3(name = "to_xyz_wxyz", signature = (T))]
-#[expect(non_snake_case, reason = "the name that users pass")]
 pub(super) fn to_xyz_wxyz<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>> {
     taken_apart(T, pose_to_wxyz)
 }
@@ -176,7 +175,6 @@ pub(super) fn to_xyz_wxyz<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>
 ///     InvalidPoseError: A wrong shape, or a single pose that is not a rigid transform.
 #[pyfunction]
 #[pyo3(name = "to_xyz_euler_zyx", signature = (T))]
-#[expect(non_snake_case, reason = "the name that users pass")]
 pub(super) fn to_xyz_euler_zyx<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>> {
     taken_apart(T, pose_to_euler_zyx)
 }

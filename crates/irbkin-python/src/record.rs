@@ -35,7 +35,6 @@ macro_rules! record_methods {
         #[pymethods]
         impl $name {
             #[new]
-            #[allow(clippy::too_many_arguments, non_snake_case, reason = "a field each")]
             fn new($($field: $type),+) -> Self {
                 Self { $($field),+ }
             }

@@ -264,7 +264,6 @@ record! {
     }
 
     /// The best joint path along a path of poses.
-    #[allow(non_snake_case, reason = "T is the name that users pass")]
     Plan {
         /// Joint angles [rad], shape (m, n); NaN where a plan with breaks has none.
         q: Array,

@@ -111,8 +111,6 @@ impl Path {
 #[pyfunction]
 #[pyo3(signature = (q, max_velocity, max_acceleration, *, max_jerk=None, T=None,
     max_tool_speed=None, start_velocity=None, end_velocity=None, limits=None, steps=None))]
-#[expect(non_snake_case, reason = "the name that users pass")]
-#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(super) fn retime(
     q: &Bound<'_, PyAny>,
     max_velocity: &Bound<'_, PyAny>,
@@ -169,7 +167,6 @@ pub(super) fn retime(
 ///     InvalidJointsError, InvalidPoseError: As `retime`.
 #[pyfunction]
 #[pyo3(signature = (q, T, speed, max_velocity, max_acceleration=None, *, limits=None, steps=None))]
-#[expect(non_snake_case, reason = "the name that users pass")]
 pub(super) fn at_tool_speed(
     q: &Bound<'_, PyAny>,
     T: &Bound<'_, PyAny>,
@@ -206,7 +203,6 @@ pub(super) fn at_tool_speed(
 ///     InvalidJointsError, InvalidPoseError: As `retime`.
 #[pyfunction]
 #[pyo3(signature = (q, T, max_velocity, max_acceleration=None))]
-#[expect(non_snake_case, reason = "the name that users pass")]
 pub(super) fn tool_speed_limits(
     q: &Bound<'_, PyAny>,
     T: &Bound<'_, PyAny>,

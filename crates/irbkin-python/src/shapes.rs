@@ -276,7 +276,6 @@ impl PyBody {
         urdf, base=None, tip=None, *, excess=None, most=4, packages=None, joints=None,
         progress=None
     ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's arguments")]
     fn fit(
         urdf: &Bound<'_, PyAny>,
         base: Option<&str>,

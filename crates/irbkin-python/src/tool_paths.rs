@@ -70,7 +70,6 @@ fn read_spacing(
 #[pyfunction]
 #[pyo3(signature = (T0, T1, *, steps=None, step=None, turn=None, speed=None,
     dt=None, axis=None))]
-#[expect(non_snake_case, clippy::too_many_arguments, reason = "the keywords of one call")]
 pub(super) fn line(
     T0: &Bound<'_, PyAny>,
     T1: &Bound<'_, PyAny>,
@@ -113,7 +112,6 @@ pub(super) fn line(
 #[pyfunction]
 #[pyo3(signature = (T0, T_via, T1, *, orientation="path", steps=None, step=None, turn=None,
     speed=None, dt=None))]
-#[expect(non_snake_case, clippy::too_many_arguments, reason = "the keywords of one call")]
 pub(super) fn arc(
     T0: &Bound<'_, PyAny>,
     T_via: &Bound<'_, PyAny>,
@@ -159,7 +157,6 @@ pub(super) fn arc(
 #[pyfunction]
 #[pyo3(signature = (T, zones, *, steps=None, step=None, turn=None, speed=None,
     dt=None))]
-#[expect(non_snake_case, reason = "the name that users pass")]
 pub(super) fn polyline(
     T: &Bound<'_, PyAny>,
     zones: &Bound<'_, PyAny>,
@@ -202,7 +199,6 @@ pub(super) fn polyline(
 ///         or a spacing that does not say how many poses there are.
 #[pyfunction]
 #[pyo3(signature = (T, *, steps=None, step=None, turn=None, speed=None, dt=None))]
-#[expect(non_snake_case, reason = "the name that users pass")]
 pub(super) fn spline(
     T: &Bound<'_, PyAny>,
     steps: Option<&Bound<'_, PyAny>>,

@@ -161,7 +161,6 @@ fn read_axis_limits(
 #[pyo3(signature = (q0, q1, *, steps=50, duration=None, profile="quintic", start_velocity=None,
     end_velocity=None, start_acceleration=None, end_acceleration=None, max_velocity=None,
     max_acceleration=None, max_jerk=None, synchronization="time", limits=None))]
-#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(super) fn joint(
     q0: &Bound<'_, PyAny>,
     q1: &Bound<'_, PyAny>,
@@ -253,7 +252,6 @@ pub(super) fn joint(
 #[pyfunction]
 #[pyo3(signature = (q, *, t=None, steps=100, duration=None, profile="quintic", max_velocity=None,
     max_acceleration=None, max_jerk=None, limits=None))]
-#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(super) fn spline(
     q: &Bound<'_, PyAny>,
     t: Option<&Bound<'_, PyAny>>,

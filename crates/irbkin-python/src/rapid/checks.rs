@@ -120,7 +120,6 @@ pub(crate) fn check<'py>(
 #[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
     cell=None, units=None, last_values=false, tools=None, whole=None, of_system=None,
     signals=None, carried=None, tasks=None))]
-#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 #[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
 pub(crate) fn check_program<'py>(
     robot: &Bound<'py, PyRobot>,

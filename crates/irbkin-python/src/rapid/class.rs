@@ -197,7 +197,6 @@ macro_rules! classes {
         impl $Record {
             #[new]
             #[pyo3(signature = ($($field $(= Argument::Default($default))?),*))]
-            #[allow(clippy::too_many_arguments, reason = "as many as fields")]
             fn made($($field: Argument<'_, $Field>),*) -> PyResult<Self> {
                 $(let $field = $field.read($class, stringify!($field))?;)*
                 Ok(Self(rapid::$Record { $($field),* }))

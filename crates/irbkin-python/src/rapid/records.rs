@@ -38,7 +38,6 @@ impl RapidPose {
     /// Return the frame of a homogeneous matrix, shape (4, 4), translation [m].
     #[staticmethod]
     #[pyo3(signature = (T))]
-    #[expect(non_snake_case, reason = "the name of a matrix")]
     fn of(T: &Bound<'_, PyAny>) -> PyResult<Self> {
         let rapid::RapidPose { trans_mm, rot } = rapid_pose(&read_pose(T)?);
         let [millimeters, units] = DECIMALS;
@@ -62,7 +61,6 @@ impl WobjData {
     /// translation [m].
     #[staticmethod]
     #[pyo3(signature = (T))]
-    #[expect(non_snake_case, reason = "the name of a matrix")]
     fn of(T: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self(rapid::WobjData { uframe: RapidPose::of(T)?.0, ..rapid::WobjData::WOBJ0 }))
     }
@@ -73,7 +71,6 @@ impl RobTarget {
     /// Return the target of a homogeneous matrix, shape (4, 4), translation [m].
     #[staticmethod]
     #[pyo3(signature = (T, robconf, extax=Argument::Default([NOT_THERE; 6])))]
-    #[expect(non_snake_case, reason = "the name of a matrix")]
     fn of(
         T: &Bound<'_, PyAny>,
         robconf: Argument<'_, Configuration>,

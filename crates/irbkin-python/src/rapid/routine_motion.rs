@@ -97,7 +97,6 @@ pub(crate) struct PyRoutineMotion {
 #[pyfunction]
 #[pyo3(signature = (robot, module, routine=None, *, start=None, max_velocity=None,
     max_acceleration=None, step=0.005, turn=None))]
-#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(crate) fn motion(
     robot: &Bound<'_, PyRobot>,
     module: &Bound<'_, RapidModule>,
