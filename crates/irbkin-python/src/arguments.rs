@@ -31,7 +31,6 @@ pub(super) fn one_of<T: Copy>(field: &str, word: &str, words: &[(&str, T)]) -> P
 pub(super) const FRAMES: [(&str, JacobianFrame); 2] =
     [("base", JacobianFrame::Base), ("tool", JacobianFrame::Tool)];
 
-/// Behaviors of a path at the wrist singularity.
 pub(super) const SINGULARITY_MODES: [(&str, SingularityMode); 4] = [
     ("through", SingularityMode::Through),
     ("error", SingularityMode::Error),
@@ -39,7 +38,6 @@ pub(super) const SINGULARITY_MODES: [(&str, SingularityMode); 4] = [
     ("lock_axis4", SingularityMode::LockAxis4),
 ];
 
-/// Profiles of a motion between two joint vectors.
 pub(super) const PROFILES: [(&str, Profile); 4] = [
     ("quintic", Profile::Quintic),
     ("cubic", Profile::Cubic),
@@ -50,22 +48,18 @@ pub(super) const PROFILES: [(&str, Profile); 4] = [
 pub(super) const SPLINES: [(&str, SplineKind); 2] =
     [("quintic", SplineKind::Quintic), ("cubic", SplineKind::Cubic)];
 
-/// How joints arrive together.
 pub(super) const SYNCHRONIZATIONS: [(&str, Synchronization); 2] =
     [("time", Synchronization::Time), ("phase", Synchronization::Phase)];
 
-/// Responses of a guard to a reference that does not fit.
 pub(super) const VIOLATIONS: [(&str, OnViolation); 2] =
     [("brake", OnViolation::Brake), ("limit", OnViolation::Limit)];
 
-/// Courses of the orientation along an arc.
 pub(super) const ORIENTATIONS: [(&str, ArcOrientation); 3] = [
     ("path", ArcOrientation::Path),
     ("object", ArcOrientation::Object),
     ("via", ArcOrientation::Via),
 ];
 
-/// The order in which costs make one path better than another.
 pub(super) const ORDERS: [(&str, PlanOrder); 2] =
     [("bottleneck", PlanOrder::Bottleneck), ("sum", PlanOrder::Sum)];
 

@@ -84,7 +84,6 @@ impl<'py> Rows<'py> {
         Ok(self.array.as_slice()?)
     }
 
-    /// Rows of `N` numbers.
     pub(super) fn chunks<const N: usize>(&self) -> PyResult<&[[f64; N]]> {
         Ok(self.data()?.as_chunks::<N>().0)
     }
@@ -94,12 +93,10 @@ impl<'py> Rows<'py> {
         Ok(if self.is_single() { self.chunks()?.first() } else { None })
     }
 
-    /// The shape of the array.
     pub(super) fn shape(&self) -> &[usize] {
         self.array.shape()
     }
 
-    /// The addresses of its memory.
     pub(super) fn addresses(&self) -> Range<usize> {
         addresses(&self.array)
     }

@@ -77,7 +77,6 @@ impl PyRobot {
     }
 }
 
-/// A shape or several.
 #[derive(FromPyObject)]
 pub(crate) enum Shapes<'py> {
     One(Bound<'py, PyShape>),

@@ -289,7 +289,6 @@ impl PyCell {
         Ok(Some(collides))
     }
 
-    /// Where a motion first touches something.
     fn contact<const N: usize, M: Motion<N> + Sync + ?Sized>(
         &self,
         py: Python<'_>,

@@ -24,7 +24,6 @@ pub(super) enum Fault {
 }
 
 impl Fault {
-    /// The exception for this input with a message.
     #[cold]
     pub(super) fn error(self, message: impl Display) -> PyErr {
         let class = match self {
@@ -48,7 +47,6 @@ pub(super) fn raised(class: &str, message: impl Display) -> PyErr {
     })
 }
 
-/// An exception with attributes.
 pub(super) fn with_attributes(
     error: PyErr,
     set: impl FnOnce(&Bound<'_, PyBaseException>) -> PyResult<()>,

@@ -138,7 +138,6 @@ impl<const N: usize> Found<N> {
         Ok(self.keep(kept))
     }
 
-    /// Keep the solutions that do not collide.
     pub(super) fn filter_free(&self, cell: &Arc<Cell>) -> PyResult<Self> {
         let entries = self.entries();
         let q: Vec<_> = entries.iter().map(|solution| solution.q).collect();

@@ -77,7 +77,6 @@ pub(super) fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotatio
     made.map_err(exception)
 }
 
-/// The number of angles of joint 7.
 pub(super) fn read_redundancy(given: &Bound<'_, PyAny>) -> PyResult<usize> {
     count(given).ok_or_else(|| other("redundancy must be a number of angles", given))
 }

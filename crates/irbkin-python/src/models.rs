@@ -312,7 +312,6 @@ where
     robot.map(Arm::from)
 }
 
-/// The arm under a name, with limits where they were given.
 fn named_and_limited(
     arm: &SharedArm,
     limits: Option<&Bound<'_, PyAny>>,

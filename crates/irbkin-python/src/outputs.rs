@@ -30,7 +30,6 @@ pub(super) fn column<T: Element>(py: Python<'_>, values: impl IntoIterator<Item 
     PyArray1::from_iter(py, values).into_any().unbind()
 }
 
-/// A new array of some shape.
 pub(super) fn array<T: Element>(
     py: Python<'_>,
     values: impl IntoIterator<Item = T>,
@@ -114,7 +113,6 @@ impl<'py, T: Element> Output<'py, T> {
         Ok(self.view.as_slice_mut()?)
     }
 
-    /// The addresses of its memory.
     pub(super) fn addresses(&self) -> Range<usize> {
         addresses(&self.array)
     }

@@ -46,7 +46,6 @@ impl PyRobot {
 }
 
 impl PyRobot {
-    /// The arm without a locked joint.
     pub(super) fn unlocked(&self) -> PyResult<SharedArm> {
         on!(self.arm(), arm => changed(arm, |robot| Ok(robot.unlocked())))
     }

@@ -15,7 +15,6 @@ use irbkin::Interrupt;
 use irbkin_motion::Error;
 use irbkin_motion::trajectory::{self, Retiming, Trajectory, tool_lengths};
 
-/// A path of joints with their limits.
 struct Path {
     q: Vec<f64>,
     max_velocity: Vec<f64>,

@@ -57,12 +57,10 @@ pub(super) fn watched<R: Send>(
     }
 }
 
-/// The signals of a call.
 struct Signals {
     asked: Instant,
     /// Whether another thread than this is the one that handles signals.
     is_deaf: bool,
-    /// The exception that a handler raised.
     raised: Option<PyErr>,
     /// A callable that is told how much is done, and with the whole.
     report: Option<Py<PyAny>>,
@@ -91,7 +89,6 @@ impl Signals {
         self.raised.is_none()
     }
 
-    /// Report how far the work is.
     fn report(&self, py: Python<'_>, [done, all]: [usize; 2]) -> PyResult<()> {
         self.report.as_ref().map_or(Ok(()), |report| report.call1(py, (done, all)).map(drop))
     }

@@ -65,7 +65,6 @@ pub(super) fn read_each(
     }
 }
 
-/// A limit of each joint, if it is given.
 pub(super) fn read_limits<const N: usize>(
     given: Option<&Bound<'_, PyAny>>,
     field: &'static str,

@@ -34,7 +34,6 @@ impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
         self.accept.is_some() || self.checker.is_some()
     }
 
-    /// Whether each joint vector passes; nothing to stop.
     pub(super) fn postures(&mut self, q: &[[f64; N]]) -> Option<Vec<bool>> {
         let mut passed = match &mut self.checker {
             Some(checker) => checker.free_postures(q),
@@ -49,7 +48,6 @@ impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
         Some(passed)
     }
 
-    /// Whether the motion from each joint vector to the next one passes.
     pub(super) fn motions(&mut self, q: &[[f64; N]]) -> Vec<bool> {
         match &mut self.checker {
             Some(checker) => checker.free_motions(q),

@@ -308,7 +308,6 @@ fn checked<const N: usize>(
 /// names the last have no suggestion.
 const MOST_COMPARED: usize = 40_000_000;
 
-/// Codes by their ids.
 fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
     let mut codes = Vec::new();
     for id in given.try_iter()? {

@@ -41,7 +41,6 @@ impl<T: Field> Argument<'_, T> {
     }
 }
 
-/// A `RapidError`.
 fn fault(py: Python<'_>, message: String) -> PyErr {
     let raised = || py.import("irbkin.errors")?.getattr("RapidError")?.call1((message,));
     raised().map_or_else(|failure| failure, PyErr::from_value)
@@ -184,10 +183,8 @@ macro_rules! classes {
         pub(crate) struct $Record(pub(crate) rapid::$Record);
 
         impl $Record {
-            /// The names of the fields.
             const FIELDS: &'static [&'static str] = &[$(stringify!($field)),*];
 
-            /// The values of the fields.
             fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
                 PyTuple::new(py, [$(self.0.$field.show(py)?),*])
             }

@@ -117,7 +117,6 @@ pub(crate) fn motion(
     }
 }
 
-/// Options as Python gives them.
 struct MotionArguments<'a, 'py> {
     start: Option<&'a Bound<'py, PyAny>>,
     max_velocity: Option<&'a Bound<'py, PyAny>>,

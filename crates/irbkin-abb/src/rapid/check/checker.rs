@@ -245,7 +245,6 @@ struct Checker<'a, 'm, const N: usize> {
     carrying: Vec<(&'a Vec<String>, cell::Checker<'a, N>)>,
     carried: &'a Carried,
     finder: Finder<'a, 'm>,
-    /// The ends of the moves of each run.
     ends: Vec<Vec<End<N>>>,
     found: Vec<Finding>,
     demands: Vec<Demand<'a>>,

@@ -283,7 +283,6 @@ impl<'m> Loading<'_, 'm> {
         self.found.extend(self.kind_finding(wanted, &|| own.to_string(), value));
     }
 
-    /// The kind of the value of an expression, if it is known.
     fn kind_of(&self, expression: &Expression<'_>) -> Option<&'static str> {
         match &expression.form {
             Form::Number(_) => Some("num"),

@@ -77,7 +77,6 @@ pub(crate) static ZONEDATA: Type = record("zonedata", &[
 ]);
 
 impl Type {
-    /// Components by their names; empty for an atom.
     pub(crate) fn components(&self) -> &'static [(&'static str, &'static Type)] {
         match self.shape {
             Shape::Record(components) => components,

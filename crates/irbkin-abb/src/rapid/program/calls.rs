@@ -230,7 +230,6 @@ impl<'m> Walk<'_, 'm> {
         }
     }
 
-    /// The parameters of a routine with the arguments of a call.
     fn bound(
         &mut self,
         written: (&str, usize, &Rc<Site>),

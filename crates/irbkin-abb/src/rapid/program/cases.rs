@@ -146,7 +146,6 @@ impl Known {
         }
     }
 
-    /// Whether it rests on something that the program does not determine.
     pub(super) fn is_assumed(&self) -> bool {
         self.0.iter().any(|candidate| candidate.assumed.is_some())
     }
@@ -260,7 +259,6 @@ impl Choices {
         self.assumed.borrow_mut().get_or_insert_with(words);
     }
 
-    /// Whether this way rests on something that the program does not determine.
     pub(super) fn is_assumed(&self) -> bool {
         self.assumed.borrow().is_some()
     }

@@ -136,7 +136,6 @@ impl<'m> Index<'m> {
         Some(Known::resting_on(Some(words), own.content.clone(), ""))
     }
 
-    /// The data of a routine, by its name in lower case.
     pub(in crate::rapid) fn locals(
         &self,
         module: usize,

@@ -201,7 +201,6 @@ impl Scope<'_, '_> {
         offsets.ok_or(statement.line)
     }
 
-    /// The value of an argument of a statement, if it has it.
     fn argument_of<T: Record>(
         &self,
         statement: &Statement,

@@ -240,7 +240,6 @@ impl<'s> Scope<'s, '_> {
         known(self.evaluator(text).value(expression, data_type))
     }
 
-    /// The record or the number that an expression of a statement is.
     pub(super) fn evaluate<T: Record>(
         &self,
         text: &str,

@@ -70,7 +70,6 @@ pub(crate) struct StatementReader<'a> {
 }
 
 impl StatementReader<'_> {
-    /// The position, for looking up names.
     pub(super) fn at(&self) -> At {
         At { routine: self.routine, inside_loop: self.written.blocks.innermost_loop() }
     }
@@ -85,7 +84,6 @@ impl StatementReader<'_> {
         block.or_else(|| self.current_routine().map(|routine| routine.kind.end()))
     }
 
-    /// Declare a name in the scope of the routine or of the module.
     pub(super) fn declare(
         &mut self,
         at: Token,

@@ -56,7 +56,6 @@ fn newlines(bytes: &[u8]) -> usize {
     bytes.chunks(usize::from(u8::MAX)).map(|piece| usize::from(of_piece(piece))).sum()
 }
 
-/// An error at a byte of a text, near a known place.
 pub(crate) fn fault_at(text: &str, near: Place, byte: usize, kind: RapidFaultKind) -> RapidFault {
     let Place { line, column, .. } = near.moved(text, byte);
     RapidFault { line, column, kind }

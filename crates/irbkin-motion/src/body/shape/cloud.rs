@@ -80,7 +80,6 @@ impl Cloud {
         &self.0.tree
     }
 
-    /// How far a capsule is from the nearest ball.
     pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
         let (_, points) = self.nearest(&capsule.ends, f64::INFINITY, |_| false);
         Separation::of_balls(points, [capsule.radius, self.radius()])
