@@ -1,12 +1,11 @@
 //! Errors of input.
 
-use alloc::boxed::Box;
-
 use irbkin::Interrupted;
 use irbkin::internal::JointFault;
 use irbkin_motion::internal::MotionFault;
 
 use crate::egm::fault::EgmFault;
+use crate::prelude::*;
 use crate::rapid::text::fault::{FrameFault, RapidFault};
 
 /// Why a call was refused.

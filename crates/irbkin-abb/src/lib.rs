@@ -22,3 +22,4 @@ pub mod rapid;
 mod rng;
 
 pub use error::Error;
+use irbkin_motion::internal::prelude;

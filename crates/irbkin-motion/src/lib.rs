@@ -44,6 +44,7 @@ mod error;
 pub mod go;
 pub mod paths;
 pub mod plan;
+mod prelude;
 #[cfg(test)]
 #[path = "../../../tests/common/rng.rs"]
 #[allow(dead_code, unreachable_pub)]
@@ -78,4 +79,8 @@ pub mod internal {
     pub use crate::trajectory::{evenly, within_times};
     #[cfg(feature = "urdf")]
     pub use crate::urdf::{Carrier, UrdfArm, fault::UrdfFault, read_document};
+
+    pub mod prelude {
+        pub use crate::prelude::*;
+    }
 }

@@ -1,8 +1,7 @@
 //! Splines through rows of numbers, cubic and quintic: their pieces by coefficients from the
 //! constant upwards (docs/theory/motion.md, eq. 1 to 3, 9 to 12).
 
-use alloc::vec::Vec;
-
+use crate::prelude::*;
 use nalgebra::{Matrix2, Vector2};
 
 #[derive(Clone, Copy)]

@@ -1,10 +1,9 @@
 //! The messages of EGM. Every field may be missing.
 
-use alloc::vec::Vec;
-
 use super::fault::EgmFault;
 use super::wire::{Field, Message, Reader, Value};
 use crate::Error;
+use crate::prelude::*;
 
 /// Define messages by numbers, names and types of their fields.
 macro_rules! messages {

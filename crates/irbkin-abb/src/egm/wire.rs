@@ -3,9 +3,8 @@
 //! Reference: Protocol Buffers, Encoding. Unknown fields are skipped, groups are refused. A list of
 //! doubles is read packed or not, and written not packed, as EGM's is declared.
 
-use alloc::vec::Vec;
-
 use super::fault::{EgmFault, EgmFaultKind};
+use crate::prelude::*;
 
 /// The largest payload of a UDP datagram over IPv4 [bytes].
 const MOST_BYTES: usize = 65_507;

@@ -16,16 +16,12 @@
 //! capsule of the cell. The ends of its axis are `e` from the axis of the cylinder, so no point of
 //! it is farther than `e + R - radius` from the lateral surface, nor than `R - v` from the ends.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
-
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
 
 use super::shape::{Capsule, Shape, check_length};
 use crate::body::fault::BodyFault;
 use crate::error::Error;
+use crate::prelude::*;
 
 /// Capsules of a cover where no excess is given, at most.
 const FEW: usize = 4;

@@ -1,7 +1,6 @@
 //! Shapes, bodies and cells that are refused.
 
-use alloc::string::String;
-
+use crate::prelude::*;
 use thiserror::Error;
 
 use irbkin::internal::Names;

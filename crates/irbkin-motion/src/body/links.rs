@@ -1,13 +1,11 @@
 //! Capsules that move with the links of an arm.
 
 use alloc::borrow::Cow;
-#[cfg(feature = "urdf")]
-use alloc::string::String;
-use alloc::vec::Vec;
 
 use super::shape::{Capsule, RoundedHull, check_length};
 use crate::body::fault::BodyFault;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Pose;
 
 /// The source of a body that is made of lengths alone.

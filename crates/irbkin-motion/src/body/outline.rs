@@ -1,14 +1,12 @@
 //! The capsules of a body in groups that move together, with a capsule around each group.
 
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::links::{Body, LinkCapsule, LinkHull};
 use super::shape::{Capsule, DistanceQuery, RoundedHull, Separation, Shape};
+use crate::prelude::*;
 use irbkin::Pose;
 
 /// Cores of a group, at most.

@@ -1,13 +1,12 @@
 //! A body as serde reads and writes it: the name of the catalog's arm, or its capsules.
 
-use alloc::string::{String, ToString};
-
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::arms::body_of;
 use super::links::Body;
 use crate::body::fault::BodyFault;
+use crate::prelude::*;
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Body")]

@@ -1,7 +1,5 @@
 //! Many joint vectors in a cell.
 
-use alloc::vec::Vec;
-
 use irbkin::batch::{Batch, Margins};
 use irbkin::internal::lanes::LANES;
 use irbkin::internal::{check_length, check_seed, rows};
@@ -11,6 +9,7 @@ use super::checker::Checker;
 use super::obstacles::Cell;
 use crate::arm::Arm;
 use crate::error::Error;
+use crate::prelude::*;
 
 /// Joint vectors that a thread takes at a time.
 const JOINT_VECTORS: usize = 1024;

@@ -1,6 +1,5 @@
 //! Eight joint vectors, or boxes of joint vectors, at once: which of them touch something.
 
-use alloc::vec::Vec;
 use core::mem::take;
 
 use fearless_simd::prelude::*;
@@ -11,6 +10,7 @@ use super::link_motion::Drift;
 use super::obstacles::Cell;
 use super::path::Range;
 use crate::body::{Capsule, Group, Outline, SeparatingDirection};
+use crate::prelude::*;
 use irbkin::Robot;
 use irbkin::internal::Axes;
 use irbkin::internal::lanes::{

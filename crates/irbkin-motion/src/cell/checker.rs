@@ -1,8 +1,5 @@
 //! An arm in a cell, with the memory of its postures.
 
-use alloc::boxed::Box;
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
 
 use super::block::{Block, Query};
@@ -11,6 +8,7 @@ use super::single_posture::is_obstructed;
 use crate::arm::Arm;
 use crate::body::{Capsule, Centered, Group, Outline};
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::internal::lanes::LANES;
 use irbkin::{Interrupt, Pose};
 

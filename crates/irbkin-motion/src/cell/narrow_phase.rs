@@ -1,7 +1,6 @@
 //! The narrow phase: what capsules leave undecided, by separating planes and distances of hulls
 //! (docs/theory/cell.md, hulls of links).
 
-use alloc::vec::Vec;
 use core::array;
 use core::mem::take;
 
@@ -14,6 +13,7 @@ use super::distance_bounds::{
 };
 use super::link_motion::Drift;
 use crate::body::{Centered, DistanceQuery, RoundedHull, SeparatingDirection, Shape};
+use crate::prelude::*;
 use irbkin::internal::lanes::{Column, Number as _, Vector, dot};
 
 /// Numbers of directions between two groups: more hulls than these have some in common.

@@ -1,14 +1,13 @@
 //! A cell: obstacles in the frame of the world.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::{String, ToString as _};
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::arm::Arm;
 use crate::body::fault::BodyFault;
 use crate::body::{Shape, Tree, check_length};
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Interrupt;
 use irbkin::internal::check_seed;
 

@@ -1,9 +1,8 @@
 //! The pairs that are compared at a posture, and how far apart they are.
 
-use alloc::vec::Vec;
-
 use super::checker::{Checker, Standing};
 use crate::body::{Bounds, Separation};
+use crate::prelude::*;
 
 /// By how much distances are below the true ones at most, and more [m].
 const BELOW: f64 = 1e-6;

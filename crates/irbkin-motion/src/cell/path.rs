@@ -3,7 +3,6 @@
 //! Boxes of joint angles that contain parts of the motion are proven free (docs/theory/cell.md,
 //! eq. 2), eight at a time; a part that is not is halved.
 
-use alloc::vec::Vec;
 use core::array;
 use core::mem::replace;
 
@@ -13,6 +12,7 @@ use super::obstacles::Cell;
 use super::postures::Nearest;
 use crate::arm::Arm;
 use crate::error::Error;
+use crate::prelude::*;
 use crate::trajectory::Trajectory;
 use irbkin::internal::lanes::LANES;
 use irbkin::internal::{check_length, check_seed};

@@ -1,7 +1,5 @@
 //! Collisions of an arm in a cell at single postures.
 
-use alloc::string::{String, ToString as _};
-use alloc::vec::Vec;
 use core::array;
 use core::cell::RefCell;
 use core::fmt;
@@ -13,11 +11,10 @@ use super::pairs::{Other, Pair};
 use crate::arm::Arm;
 use crate::body::Separation;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::internal::check_seed;
 use irbkin::internal::lanes::LANES;
 use irbkin::{Pose, Robot, Solution};
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
 use nalgebra::Vector3;
 
 /// Something that a link is near to.

@@ -1,7 +1,5 @@
 //! Errors of input, as those of [`irbkin::Error`].
 
-use alloc::string::String;
-
 use irbkin::Interrupted;
 use irbkin::internal::{JointFault, ModelFault, PoseFault};
 
@@ -13,6 +11,7 @@ pub use self::motion::{MotionFault, check_most_near};
 use crate::body::fault::BodyFault;
 use crate::go::fault::GoFault;
 use crate::plan::fault::PlanFault;
+use crate::prelude::*;
 #[cfg(feature = "urdf")]
 use crate::urdf::fault::UrdfFault;
 

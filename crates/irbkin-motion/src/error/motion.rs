@@ -1,7 +1,6 @@
 //! Arguments of trajectories and paths that are refused.
 
-use alloc::string::String;
-
+use crate::prelude::*;
 use thiserror::Error;
 
 use irbkin::JointLimits;

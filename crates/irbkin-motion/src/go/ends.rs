@@ -1,13 +1,12 @@
 //! The joint vectors at which a free motion may begin and end.
 
-use alloc::string::ToString as _;
-use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::End;
 use crate::cell::{Checker, Nearest};
 use crate::error::Error;
 use crate::go::fault::GoFault;
+use crate::prelude::*;
 use crate::trajectory::distance;
 use irbkin::internal::{at_limit, check_seed, checked_pose};
 use irbkin::{Pose, Robot, Solutions};

@@ -1,7 +1,6 @@
 //! Free motions that are not found.
 
-use alloc::string::String;
-
+use crate::prelude::*;
 use thiserror::Error;
 
 use irbkin::Explanation;

@@ -1,6 +1,6 @@
 //! Joint vectors all over the range of the joints: a Halton sequence.
 
-use alloc::vec::Vec;
+use crate::prelude::*;
 use core::array;
 use core::f64::consts::PI;
 

@@ -1,7 +1,6 @@
 //! Two trees of free motions, from the start and from the goal, until they meet (RRT-Connect:
 //! Kuffner and LaValle, 2000).
 
-use alloc::vec::Vec;
 use core::array;
 use core::mem::swap;
 
@@ -9,6 +8,7 @@ use super::samples::Samples;
 use crate::cell::Checker;
 use crate::error::Error;
 use crate::go::fault::GoFault;
+use crate::prelude::*;
 use crate::trajectory::distance;
 use irbkin::{Interrupt, Robot};
 

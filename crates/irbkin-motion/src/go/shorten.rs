@@ -1,9 +1,8 @@
 //! Shorter paths: waypoints left out, corners cut.
 
-use alloc::vec::Vec;
-
 use super::samples::Halton;
 use super::search::{Space, between};
+use crate::prelude::*;
 use crate::trajectory::distance;
 
 /// Corners that are tried to be cut.

@@ -1,14 +1,10 @@
 //! The motion along a path: its corners rounded as far as that is free, at the fastest pace.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
-use alloc::vec::Vec;
-
 use super::GoOptions;
 use super::search::{Evidence, RESOLUTION, Space, between};
 use crate::cell;
 use crate::error::Error;
+use crate::prelude::*;
 use crate::trajectory::{
     AxisLimits, Profile, Synchronization, Trajectory, distance, joint_within, paced, rounded,
 };

@@ -1,17 +1,14 @@
 //! A circular arc of the tool through three poses.
 
-use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use nalgebra::{Rotation3, Translation3, Unit, Vector3};
-
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::line::{Turn, part};
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::LEAST_BEND;
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::checked_pose;
 

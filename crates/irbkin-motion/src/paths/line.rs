@@ -1,15 +1,13 @@
 //! A straight line of the tool, its orientation turning evenly.
 
-use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::{HALF_TURN_COS, LEAST_ALONG, STEP_ROUNDING};
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::checked_pose;
 use irbkin::pose::to_wxyz as pose_to_wxyz;

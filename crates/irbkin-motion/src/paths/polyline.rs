@@ -1,13 +1,12 @@
 //! Lines through many poses, with corners that are rounded as ABB's zones are.
 
-use alloc::vec::Vec;
-
 use nalgebra::{Rotation3, Translation3, Vector3};
 
 use super::arc::{Arc, ArcOrientation};
 use super::line::{Line, Turn, part};
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::{check_length, checked_pose};
 

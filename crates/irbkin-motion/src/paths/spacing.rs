@@ -1,12 +1,8 @@
 //! How many poses a path has.
 
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
+use crate::prelude::*;
 use crate::trajectory::check::{check_limit, check_positive};
 
 /// How the poses of a path are spaced.

@@ -1,15 +1,12 @@
 //! A smooth curve of the tool through many poses.
 
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
 use nalgebra::Vector3;
 
 use super::line::{Turn, line, part};
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::{LEAST_TURN, LEAST_WAY};
+use crate::prelude::*;
 use crate::spline::{Ends, cubic};
 use irbkin::internal::checked_pose;
 use irbkin::{Pose, PoseDifference};

@@ -1,12 +1,10 @@
 //! The answer of a plan: joints at each pose, breaks, and the reasons for them.
 
-use alloc::boxed::Box;
-use alloc::string::String;
-use alloc::vec::Vec;
 use core::fmt;
 
 use crate::cell::Near;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::internal::excess;
 use irbkin::{Explanation, SingularityKind};
 

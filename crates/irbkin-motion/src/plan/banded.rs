@@ -1,10 +1,7 @@
 //! Linear equations of unknowns that are coupled to near ones only: a banded Cholesky factorization
 //! (Golub, Van Loan, Matrix Computations, section 4.3.5).
 
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use crate::prelude::*;
 
 /// A symmetric positive definite matrix, its lower band by rows.
 pub(super) struct Banded {

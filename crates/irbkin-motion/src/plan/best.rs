@@ -1,7 +1,6 @@
 //! The best joint path through the layers: how wide its windows need to be, and the turns of which
 //! joints need to be counted; the best closed one (docs/theory/plan.md, sections 3, 6).
 
-use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::answer::PlanError;
@@ -13,6 +12,7 @@ use super::options::PlanOrder;
 use super::search::{Bound, Passed, Search, SlotReach};
 use super::windows::Windows;
 use crate::plan::thresholds::BOTTLENECK_ROUNDING;
+use crate::prelude::*;
 use irbkin::internal::lanes::nearest_whole;
 
 /// Difference in the room to joint limits that is none, as a part of half a range [1].

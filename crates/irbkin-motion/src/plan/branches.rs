@@ -1,7 +1,6 @@
 //! Branches from one layer to the next: the edges between two of them, the order of the slots of
 //! arms whose slots are ordinals, the limits at singular poses (docs/theory/plan.md, sections 1, 2).
 
-use alloc::vec::Vec;
 use core::f64::consts::TAU;
 use core::ops::Range;
 
@@ -10,6 +9,7 @@ use super::graph::{Grid, Layer, Node};
 use super::nodes::PlannedArm;
 use crate::error::Error;
 use crate::plan::thresholds::{CONTINUOUS_STEP, CROSSING_JUMP, CROSSING_STEP};
+use crate::prelude::*;
 use irbkin::internal::lanes::{Column, Kernel, LANES, nearest_whole, run};
 use irbkin::internal::thresholds::EXAMINED_STEP;
 use irbkin::internal::{MOST_SLOTS, largest, nearest_turn};

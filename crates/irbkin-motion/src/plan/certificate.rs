@@ -1,13 +1,12 @@
 //! Whether an arm can go from node to node without a jump: the steps of a joint path are halved
 //! until they shrink, as `follow` does (docs/theory/plan.md, eq. 8).
 
-use alloc::vec::Vec;
-
 use nalgebra::Translation3;
 
 use super::graph::{Grid, Layer, Node, Values};
 use super::nodes::PlannedArm;
 use crate::plan::thresholds::CONTINUOUS_STEP;
+use crate::prelude::*;
 use irbkin::internal::thresholds::EXAMINED_STEP;
 use irbkin::internal::{largest, nearest_turn, steps};
 use irbkin::pose::to_rows as pose_to_rows;

@@ -1,14 +1,11 @@
 //! Axes that are free at each pose of a path besides the joints (docs/theory/plan.md, eq. 1).
 
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::axes::{Carried, ExternalAxis, ToolAxis, ToolCone, ToolRotation};
 use super::graph::{Grid, Moved, Values};
 use crate::plan::thresholds::{MOST_FREE_AXES, REFINED_TOOL_STEP, REFINED_TRACK};
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::thresholds::LIMIT_TOLERANCE;
 use irbkin::internal::{nearest_turn, rotation_vector};

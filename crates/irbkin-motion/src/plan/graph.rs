@@ -1,11 +1,10 @@
 //! The ladder graph of a plan: at each pose a layer of nodes, every branch at every value of what
 //! is free (docs/theory/plan.md, section 1).
 
-use alloc::vec::Vec;
-
 use crate::error::Error;
 use crate::paths::Turn;
 use crate::plan::thresholds::MOST_FREE_AXES;
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::lanes::{Column, LANES};
 

@@ -1,11 +1,11 @@
 //! Joints of a plan: their limits, their turns, the cost of a step, the cost of joint angles.
 
-use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_TURN_STATES;
+use crate::prelude::*;
 use irbkin::Robot;
 use irbkin::internal::lanes::{nearest_whole, whole_below};
 use irbkin::internal::nearest_turn;

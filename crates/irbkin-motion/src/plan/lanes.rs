@@ -1,11 +1,11 @@
 //! The best edge into every node of a layer, eight slots of a cell in lanes (docs/guide/plan.md,
 //! eq. 3 to 6).
 
-use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use super::graph::Moved;
 use super::joints::{PlannedJoints, TurnStates};
+use crate::prelude::*;
 use irbkin::internal::lanes::{Column, Kernel, LANES, nearest_whole};
 
 /// Factors of the costs of the edges into a layer.

@@ -1,7 +1,6 @@
 //! The nodes of layers: inverse kinematics of everything that is free, in lanes
 //! (docs/theory/plan.md, eq. 1, 2).
 
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::freedom::Freedom;
@@ -9,6 +8,7 @@ use super::graph::{Grid, Layer, Node, Waypoint, turns};
 use super::joints::{NodeCost, PlannedJoints};
 use super::work::Work;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::internal::Rows;
 use irbkin::internal::lanes::LANES;
 use irbkin::pose::to_rows as pose_to_rows;

@@ -1,7 +1,6 @@
 //! The options of a plan, and the questions that it asks its caller.
 
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use super::answer::StrandReason;
 use super::axes::{ExternalAxis, ToolCone, ToolRotation};
@@ -11,6 +10,7 @@ use crate::error::Error;
 use crate::paths::line::part;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_EXTERNAL;
+use crate::prelude::*;
 use crate::trajectory::check::check_limits;
 use irbkin::Interrupt;
 use irbkin::internal::{check_length, check_weights};

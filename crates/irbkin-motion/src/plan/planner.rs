@@ -1,7 +1,5 @@
 //! A plan from its parts: layers are solved, searched, proven and refined.
 
-use alloc::vec::Vec;
-
 use super::answer::PlanError;
 use super::best::JointPath;
 use super::certificate::{Between, HALVINGS, Step};
@@ -15,6 +13,7 @@ use crate::error::Error;
 use crate::paths::Turn;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_PLAN_NODES;
+use crate::prelude::*;
 use irbkin::internal::thresholds::LIMIT_TOLERANCE;
 use irbkin::internal::{largest, steps};
 

@@ -1,6 +1,5 @@
 //! Why the branches of a path end.
 
-use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::answer::{StrandEnd, StrandReason};
@@ -12,6 +11,7 @@ use super::planner::Planner;
 use super::search::SlotReach;
 use crate::error::Error;
 use crate::plan::thresholds::{CROSSING_JUMP, CROSSING_STEP};
+use crate::prelude::*;
 use irbkin::Explanation;
 use irbkin::internal::{largest, nearest_turn};
 

@@ -1,8 +1,6 @@
 //! Finer grids around a joint path, and long paths: planned along some of their poses first, then
 //! along more and more of them in bands around that plan (docs/theory/plan.md, section 5).
 
-use alloc::vec::Vec;
-
 use super::answer::PlanError;
 use super::best::JointPath;
 use super::ends::EndNode;
@@ -14,6 +12,7 @@ use super::planner::Planner;
 use crate::error::Error;
 use crate::paths::Turn;
 use crate::plan::thresholds::{BOTTLENECK_ROUNDING, MOST_FREE_AXES};
+use crate::prelude::*;
 
 /// Values of a refined layer to each side of the one that was found.
 const BAND: usize = 5;

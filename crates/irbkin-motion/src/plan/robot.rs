@@ -1,8 +1,5 @@
 //! `Arm::plan` of six joints.
 
-use alloc::boxed::Box;
-use alloc::vec::Vec;
-
 use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
 use super::best::JointPath;
 use super::ends::EndNode;
@@ -20,6 +17,7 @@ use crate::arm::Arm;
 use crate::error::Error;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::{COARSEST_TOOL_STEP, PLAN_END_OFF};
+use crate::prelude::*;
 use irbkin::internal::checked_pose;
 use irbkin::{Interrupt, Pose, PoseDifference, Robot};
 

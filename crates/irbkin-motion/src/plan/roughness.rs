@@ -1,16 +1,12 @@
 //! The cost of a joint path whose free axes are off their grid: velocities, accelerations, walls
 //! (docs/theory/plan.md, section 5, eq. 9).
 
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use super::banded::Banded;
 use super::graph::{Layer, Values};
 use super::nodes::PlannedArm;
 use super::options::PlanOrder;
 use crate::plan::thresholds::MOST_EXTERNAL;
+use crate::prelude::*;
 
 /// Distance from joint limits that smoothing aims at [rad]: walls are soft.
 const INSET: f64 = 0.01;

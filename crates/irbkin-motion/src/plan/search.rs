@@ -1,13 +1,12 @@
 //! The cheapest joint path through the layers by dynamic programming: exact, linear in the number
 //! of layers, no edge stored (docs/theory/plan.md, eq. 5, 6).
 
-use alloc::vec::Vec;
-
 use super::graph::{Edge, Node, Window};
 use super::joints::TurnStates;
 use super::ladder::Ladder;
 use super::lanes::{Pass, Relaxation, Source, Target, Work};
 use super::windows::Windows;
+use crate::prelude::*;
 use irbkin::internal::lanes::{LANES, run};
 
 /// Sources of edges that are kept at a time.

@@ -2,8 +2,6 @@
 //! turns the tool, or the first one is one that turns the arm (docs/theory/plan.md, eq. 1); or one
 //! is locked.
 
-use alloc::boxed::Box;
-use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use super::answer::{NoPlan, Plan, PlanError, StrandEnd, StrandReason};
@@ -16,6 +14,7 @@ use crate::arm::Arm;
 use crate::error::Error;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_EXTERNAL;
+use crate::prelude::*;
 use crate::trajectory::Retiming;
 use irbkin::internal::{JointFault, at_limit, check_weights};
 use irbkin::{Interrupt, Pose, Robot, Slot};

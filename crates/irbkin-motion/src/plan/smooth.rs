@@ -1,8 +1,6 @@
 //! Free axes along a joint path, smoothed: the search leaves them on a grid
 //! (docs/theory/plan.md, section 5).
 
-use alloc::vec::Vec;
-
 use super::answer::PlanError;
 use super::best::JointPath;
 use super::freedom::Freedom;
@@ -15,6 +13,7 @@ use super::planner::Planner;
 use super::refine::Middle;
 use super::roughness::{COORDINATES, Curve, Derivatives, Roughness};
 use crate::plan::thresholds::BOTTLENECK_ROUNDING;
+use crate::prelude::*;
 use irbkin::internal::{largest, nearest_turn, steps};
 use irbkin::pose::to_rows as pose_to_rows;
 

@@ -1,7 +1,5 @@
 //! The tests that joint vectors of a plan must pass: the caller's own, and a cell's.
 
-use alloc::vec::Vec;
-
 use super::answer::StrandReason;
 use super::graph::Values;
 use super::options::{Accept, PlanOptions, Test};
@@ -9,6 +7,7 @@ use crate::arm::Arm;
 use crate::cell::{Checker, Contact, Nearest};
 use crate::error::Error;
 use crate::plan::fault::PlanFault;
+use crate::prelude::*;
 
 /// The tests of a plan, if it has any.
 pub(super) struct Tests<'a, 'b, const N: usize> {

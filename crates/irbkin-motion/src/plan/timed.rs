@@ -1,8 +1,6 @@
 //! Plans for the shortest timed motion: best joint paths of both orders, from each branch, timed
 //! (docs/theory/plan.md, section 5).
 
-use alloc::vec::Vec;
-
 use super::answer::PlanError;
 use super::best::JointPath;
 use super::ends::EndNode;
@@ -12,6 +10,7 @@ use super::nodes::PlannedArm;
 use super::options::{Caller, PlanOptions, PlanOrder};
 use super::planner::Planner;
 use super::refine::{coarse_to_fine, is_long};
+use crate::prelude::*;
 use crate::trajectory::{Retiming, Trajectory};
 
 /// Of the best joint paths in either order, from each branch of the first pose and with a fixed

@@ -1,7 +1,5 @@
 //! The guard: references in, set points out.
 
-use alloc::string::{String, ToString as _};
-
 use super::ahead::Ahead;
 use super::brake::{Bounds, Brake, End, braking};
 use super::limit::{Goal, Limited};
@@ -13,6 +11,7 @@ use crate::arm::Arm;
 use crate::cell::{Boxes, Cell, Other};
 use crate::error::Error;
 use crate::go::{check_free, inside};
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::follow::Follower;
 use irbkin::internal::{largest, largest_step, steps};

@@ -1,10 +1,9 @@
 //! Why a reference was refused.
 
-use alloc::string::String;
-
 use thiserror::Error;
 
 use crate::cell::Other;
+use crate::prelude::*;
 use irbkin::internal::excess;
 use irbkin::{Explanation, Slot};
 

@@ -1,15 +1,11 @@
 //! The extremes of a trajectory between its samples too, and the limits that they keep.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
-use alloc::vec::Vec;
-
 use super::axis::AxisLimits;
 use super::check::check_axes;
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, derivative, extremes, hull, largest_size, size_bound};
 use crate::error::{Error, MotionFault};
+use crate::prelude::*;
 use crate::trajectory::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
 use irbkin::internal::check_length;
 

@@ -9,16 +9,12 @@
 //! approach to time-optimal path parameterization based on reachability analysis", 2018; there the
 //! limits hold at the points of the grid alone).
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
-use alloc::vec::Vec;
-
 use super::piece::{Piece, Strips};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, shifted};
 use crate::error::{Error, MotionFault};
 use crate::paths::line::part;
+use crate::prelude::*;
 use crate::trajectory::thresholds::LIMIT_ROUNDING;
 use irbkin::Interrupt;
 

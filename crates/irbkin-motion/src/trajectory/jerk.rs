@@ -1,11 +1,7 @@
 //! The pace along a path whose jerk is limited too: the fastest one without, averaged over a window
 //! of time. The equations are in docs/theory/motion.md, section 3.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use alloc::collections::VecDeque;
-use alloc::vec::Vec;
 use core::array;
 
 use super::axis::AxisLimits;
@@ -14,6 +10,7 @@ use super::phase::{AxisState, Phase};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, monotone_root};
 use crate::error::{Error, MotionFault};
+use crate::prelude::*;
 use irbkin::Interrupt;
 
 /// Rounds in which paces are lowered.

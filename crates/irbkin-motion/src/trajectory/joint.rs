@@ -1,12 +1,11 @@
 //! From one joint vector to another.
 
-use alloc::vec::Vec;
-
 use super::axis::{AxisLimits, AxisMotion, Profile};
 use super::check::{check_axes, check_duration, check_finite, check_joints};
 use super::phase::AxisState;
 use super::piecewise::Trajectory;
 use crate::error::{Error, MotionFault};
+use crate::prelude::*;
 use irbkin::internal::check_length;
 
 /// How joints with limits of their own arrive together.

@@ -1,8 +1,7 @@
 //! One piece of a path: what limits leave of the paces at both of its ends.
 
-use alloc::vec::Vec;
-
 use super::polynomial::TERMS;
+use crate::prelude::*;
 
 /// Remainder of a sum of numbers that cancel, as a part of them.
 const CANCELED: f64 = 64.0 * f64::EPSILON;

@@ -1,16 +1,12 @@
 //! A trajectory of several joints: a polynomial in time for each joint between two knots.
 
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use super::axis::AxisMotion;
 use super::check::{check_limit, check_positive};
 use super::polynomial::{TERMS, derivatives, line, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
+use crate::prelude::*;
 use crate::trajectory::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
 use irbkin::internal::check_length;
 use irbkin::internal::lanes::run;

@@ -1,10 +1,5 @@
 //! The fastest trajectory along samples of a path: its arguments and its spline.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
-use alloc::vec::Vec;
-
 use super::check::{
     check_duration, check_finite, check_limits, check_path_limits, check_positive, check_rows,
 };
@@ -14,6 +9,7 @@ use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
 use super::tool_speed::ToolPath;
 use crate::error::{Error, MotionFault};
+use crate::prelude::*;
 use crate::spline::{Ends, cubic};
 use crate::trajectory::thresholds::PATH_DIRECTION;
 use irbkin::Interrupt;

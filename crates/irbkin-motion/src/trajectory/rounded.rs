@@ -1,16 +1,13 @@
 //! A polyline of joints with rounded corners, and the fastest motion along it: what is straight
 //! stays straight.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
-use alloc::vec::Vec;
 use core::array;
 
 use super::grid::{Grid, PaceLimits};
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Interrupt;
 
 /// Pieces of the grid on a side or a corner: the motion takes 2 % longer than the shortest.

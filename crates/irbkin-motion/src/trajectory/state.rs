@@ -14,17 +14,13 @@
 //! # Ok::<(), irbkin_motion::Error>(())
 //! ```
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
-use alloc::vec::Vec;
-
 use super::axis::{AxisLimits, AxisMotion};
 use super::check::{check_axes, check_finite};
 use super::phase::{AxisState, Phase};
 use super::piecewise::Trajectory;
 use super::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
 use crate::error::{Error, MotionFault};
+use crate::prelude::*;
 use irbkin::internal::check_length;
 
 /// How far the target may be from where the joint stops anyway, as a part of the angles [1]: what

@@ -3,17 +3,13 @@
 //! A path q(s) of the joints is a cubic spline over the length s of the tool's path. At a constant
 //! tool speed v, dq/dt = q'(s) v and d2q/dt2 = q''(s) v^2 (eq. 28, 29).
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
-use alloc::vec::Vec;
-
 use super::check::{check_duration, check_finite, check_path_limits, check_positive, check_rows};
 use super::piece::Piece;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::LEAST_WAY;
+use crate::prelude::*;
 use crate::spline::{Ends, cubic};
 use crate::trajectory::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
 use irbkin::Pose;

@@ -1,14 +1,10 @@
 //! Through many joint vectors.
 
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use super::axis::AxisLimits;
 use super::check::{check_axes, check_duration, check_finite, check_rows};
 use super::piecewise::Trajectory;
 use crate::error::{Error, MotionFault};
+use crate::prelude::*;
 use crate::spline::{Ends, cubic, quintic};
 use irbkin::internal::check_length;
 

@@ -3,11 +3,9 @@
 //!
 //! Reference: `urdfdom`'s versions 1.0 to 1.2.
 
-use alloc::borrow::ToOwned;
-use alloc::string::ToString;
-
 use roxmltree::{Attribute, Node};
 
+use crate::prelude::*;
 use crate::urdf::fault::UrdfFault;
 
 /// The minor number of a version 1.x.

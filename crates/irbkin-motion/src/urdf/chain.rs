@@ -1,13 +1,10 @@
 //! The joints between two links.
 
-use alloc::borrow::ToOwned;
-use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
-use alloc::string::String;
-use alloc::vec::Vec;
 
 use super::joint::Joint;
 use super::tree::{Tree, quoted};
+use crate::prelude::*;
 use crate::urdf::fault::UrdfFault;
 use irbkin::internal::Names;
 #[cfg(feature = "std")]

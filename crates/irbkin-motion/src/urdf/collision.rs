@@ -3,9 +3,6 @@
 //!
 //! Reference: ROS wiki, urdf/XML/link.
 
-use alloc::borrow::ToOwned;
-use alloc::string::String;
-use alloc::vec::Vec;
 use core::fmt::Write as _;
 
 use nalgebra::Vector3;
@@ -16,6 +13,7 @@ use super::sweep::{Carrier, Sweep};
 use super::tree::Tree;
 use crate::arm::Arm;
 use crate::body::{Body, Capsule, LinkCapsule, Shape};
+use crate::prelude::*;
 use crate::urdf::fault::UrdfFault;
 use irbkin::Pose;
 use irbkin::internal::constant_pose;

@@ -1,9 +1,6 @@
 //! URDF texts that are refused.
 
-use alloc::boxed::Box;
-use alloc::string::String;
-use alloc::vec::Vec;
-
+use crate::prelude::*;
 use thiserror::Error;
 
 use irbkin::internal::{Listed, ModelFault, Names};

@@ -1,11 +1,10 @@
 //! A joint of a URDF: its names, and its numbers if it is between base and tip.
 
-use alloc::borrow::ToOwned;
-
 use nalgebra::{Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::attributes::{Version, check_attributes};
+use crate::prelude::*;
 use crate::urdf::fault::UrdfFault;
 use irbkin::internal::thresholds::{MOST_ANGLE, MOST_LENGTH, QUATERNION_NORM_BOUND};
 use irbkin::internal::{constant_pose, snapped, unit};

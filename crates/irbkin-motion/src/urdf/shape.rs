@@ -6,9 +6,7 @@
 //! memory. It reads tags, quotes, comments and character data as the parser does; if a text is not
 //! XML, the parser stops no later than where the two could differ.
 
-use alloc::borrow::ToOwned;
-use alloc::string::String;
-
+use crate::prelude::*;
 use crate::urdf::fault::UrdfFault;
 
 /// Most namespaces in a text [1]: real ones declare about ten. Each name is looked up among all of

@@ -14,16 +14,12 @@
 
 use core::f64::consts::PI;
 
-use alloc::borrow::ToOwned;
-use alloc::vec::Vec;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::joint::Joint;
 use super::tree::Tree;
 use crate::body::Capsule;
+use crate::prelude::*;
 use crate::urdf::fault::UrdfFault;
 use irbkin::Pose;
 use irbkin::internal::thresholds::MOST_REACH;

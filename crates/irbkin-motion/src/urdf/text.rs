@@ -2,14 +2,11 @@
 
 use core::fmt::Write as _;
 
-use alloc::string::String;
-
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Rotation3, Vector3};
 
 use super::joint::LINKAGE;
 use crate::body::Capsule;
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::thresholds::MOST_ANGLE;
 use irbkin::pose::to_euler_zyx as pose_to_euler_zyx;

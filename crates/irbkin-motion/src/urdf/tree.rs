@@ -1,15 +1,14 @@
 //! The links of a URDF and the joints between them.
 
-use alloc::borrow::{Cow, ToOwned};
+use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 
 use roxmltree::{Document, Node};
 
 use super::attributes::{Version, version_of};
 use super::joint::{Joint, is_own};
 use super::shape::{check_shape, mended};
+use crate::prelude::*;
 use crate::urdf::fault::UrdfFault;
 use irbkin::internal::Names;
 

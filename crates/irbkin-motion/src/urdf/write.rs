@@ -9,16 +9,13 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use alloc::borrow::ToOwned;
-use alloc::string::String;
-use alloc::vec::Vec;
-
 use nalgebra::Translation3;
 
 use super::text::{Hinge, Text};
 use crate::arm::{AnyArm, Arm};
 use crate::body::{Capsule, LinkCapsule};
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::constant_pose;
 

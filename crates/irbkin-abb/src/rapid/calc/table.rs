@@ -1,9 +1,5 @@
 //! The joint angles of every target of a module.
 
-use alloc::boxed::Box;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
-
 use super::frames::Frames;
 use super::target::{Fallback, absent_axis, joint_vector, request, target_pose, with_flange};
 use super::units::Units;
@@ -11,6 +7,7 @@ use super::wrong::{
     OrFinding, absent, ambiguous, displaced, nearest_taken, not_solved, outside, unknown_axis,
 };
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};

@@ -1,10 +1,8 @@
 //! Mechanical units beside the robot: what carries it, and what moves work objects.
 
-use alloc::string::String;
-use alloc::vec::Vec;
-
 use nalgebra::{Rotation3, Translation3, Vector3};
 
+use crate::prelude::*;
 use crate::rapid::data::records::NOT_THERE;
 use crate::rapid::text::fault::FrameFault;
 use irbkin::Pose;

@@ -1,9 +1,7 @@
 //! Findings on targets and on the paths between them, in words.
 
-use alloc::boxed::Box;
-use alloc::string::{String, ToString};
-
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::confdata::Over;
 use crate::rapid::calc::units::EXTERNAL_AXES;
 use crate::rapid::data::finding::{Code, Finding};

@@ -1,12 +1,7 @@
 //! All moves of a program, checked.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use super::corners::Zones;
 use super::findings::{Case, sorted};
@@ -16,6 +11,7 @@ use super::tasks::{Task, check_tasks};
 use super::undeclared::{undeclared, unused};
 use super::world_zones::{WorldZone, world_zones};
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::confdata::AXES;
 use crate::rapid::calc::target::{converter, with_flange};
 use crate::rapid::calc::units::Units;

@@ -1,9 +1,6 @@
 //! Corners of moves that follow one another: zones, targets next to each other, circles.
 
-use alloc::string::ToString;
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
+use crate::prelude::*;
 use crate::rapid::calc::table::external_axes;
 use crate::rapid::calc::units::{EXTERNAL_AXES, MOST_DEGREES};
 use crate::rapid::data::finding::{Code, Finding};

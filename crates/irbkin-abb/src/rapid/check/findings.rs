@@ -1,9 +1,8 @@
 //! Findings in the order of the text, each once and in one for each cause.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::String;
-use alloc::vec::Vec;
 
+use crate::prelude::*;
 use crate::rapid::data::finding::{Code, Finding, Place};
 use crate::rapid::data::module::Module;
 

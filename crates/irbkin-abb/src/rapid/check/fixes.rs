@@ -2,10 +2,9 @@
 //! one another are left out.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::ToString;
-use alloc::vec::Vec;
 use core::ops::Range;
 
+use crate::prelude::*;
 use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::finding::{Edit, Finding};
 use crate::rapid::data::module::Content;

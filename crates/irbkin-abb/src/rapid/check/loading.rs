@@ -2,11 +2,10 @@
 //! types, constants that are assigned, functions that return nothing, names declared twice.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 
 use super::findings::listed;
 use super::undeclared::signature;
+use crate::prelude::*;
 use crate::rapid::data::expression::{Arguments, Expression, Form, Relation, written};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::fit::parts;

@@ -1,8 +1,7 @@
 //! A program for another arm: its confdata are solved anew along its moves (docs/guide/replace.md).
 
-use alloc::vec::Vec;
-
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::confdata::over_quarters;
 use crate::rapid::calc::target::{converter, with_flange};
 use crate::rapid::calc::units::Units;

@@ -1,10 +1,9 @@
 //! Tasks of a controller that wait for each other forever.
 
 use alloc::collections::{BTreeMap, BTreeSet, VecDeque};
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 
 use super::undeclared::may_be_elsewhere;
+use crate::prelude::*;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Module;

@@ -1,10 +1,9 @@
 //! Calls of what nothing declares, and calls with other arguments than the routine has.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 
 use super::findings::listed;
+use crate::prelude::*;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::fit::misfit;
 use crate::rapid::data::instructions::Effect;

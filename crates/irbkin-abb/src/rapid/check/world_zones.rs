@@ -1,9 +1,7 @@
 //! World zones that stop the robot: volumes that the TCP must not enter, and spaces of the axes.
 //! They count for every move, if their corners are constant and no statement switches them off.
 
-use alloc::string::String;
-use alloc::vec::Vec;
-
+use crate::prelude::*;
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::finding::{Code, Finding};

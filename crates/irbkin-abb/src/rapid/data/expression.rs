@@ -1,12 +1,10 @@
 //! Expressions as they are written: a tree with the bytes of each part, before names are looked up.
 
 use alloc::borrow::Cow;
-use alloc::boxed::Box;
-use alloc::string::String;
-use alloc::vec::Vec;
 
 use super::unread::Reason;
 use super::value::Value;
+use crate::prelude::*;
 use crate::rapid::text::place::excerpt;
 
 /// A name in an expression: of the text that is read or, in a module, its own.

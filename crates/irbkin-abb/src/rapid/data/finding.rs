@@ -1,7 +1,5 @@
 //! Findings on moves: a code, a place and words.
 
-use alloc::string::String;
-use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
@@ -9,6 +7,7 @@ use super::moves::Move;
 use super::statement::Statement;
 use super::unread::{Reason, Unresolved};
 use super::value::DataType;
+use crate::prelude::*;
 use crate::rapid::text::place::excerpt;
 use irbkin::Explanation;
 

@@ -1,7 +1,6 @@
 //! The arguments of a call compared with the parameters of a routine.
 
-use alloc::string::String;
-
+use crate::prelude::*;
 use crate::rapid::text::place::excerpt;
 
 /// The parts of arguments as the header of a routine has them, each behind a comma, a backslash or

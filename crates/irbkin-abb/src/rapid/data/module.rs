@@ -1,14 +1,13 @@
 //! A RAPID module as data: declarations, moves, and what was skipped.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::String;
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::moves::Move;
 use super::own_types::OwnTypes;
 use super::statement::{Statement, StatementKind};
 use super::value::{DataType, Value};
+use crate::prelude::*;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::Called;
 use crate::rapid::text::words::words;

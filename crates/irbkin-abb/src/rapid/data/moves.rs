@@ -1,14 +1,12 @@
 //! Move instructions.
 
-use alloc::boxed::Box;
-use alloc::string::String;
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::records::{JointTarget, RobTarget, SpeedData, ToolData, WobjData, ZoneData};
 use super::settings::MotionSettings;
 use super::unread::Reason;
+use crate::prelude::*;
 use crate::rapid::text::words::words;
 
 words! {

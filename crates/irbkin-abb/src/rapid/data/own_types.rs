@@ -1,8 +1,7 @@
 //! Types that a program defines. Names are in lower case.
 
+use crate::prelude::*;
 use alloc::collections::BTreeMap;
-use alloc::string::String;
-use alloc::vec::Vec;
 
 /// Most names that stand for one another, and records in records.
 pub(crate) const DEEPEST_TYPE: usize = 8;

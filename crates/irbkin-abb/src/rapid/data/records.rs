@@ -1,13 +1,13 @@
 //! RAPID's records, as they are written: nothing is normalized.
 
 use alloc::collections::BTreeMap;
-use alloc::string::String;
 use core::fmt;
 
 use super::types::{
     Atoms, JOINTTARGET, LOADDATA, POSE, Part, ROBTARGET, Record, SPEEDDATA, Source, TOOLDATA, Type,
     WOBJDATA, ZONEDATA,
 };
+use crate::prelude::*;
 use irbkin::Configuration;
 
 /// Value of an external axis that does not exist.

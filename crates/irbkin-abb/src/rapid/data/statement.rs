@@ -1,9 +1,6 @@
 //! Statements as they are written, each read once, and parts of a text that are not read.
 
-use alloc::boxed::Box;
-use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use thiserror::Error;
 
@@ -12,6 +9,7 @@ use super::instructions::Effect;
 use super::lookup::written_argument;
 use super::settings::MotionSettings;
 use super::unread::Reason;
+use crate::prelude::*;
 
 /// A statement, or a part of the text that is not read.
 #[derive(Clone, Debug, PartialEq)]

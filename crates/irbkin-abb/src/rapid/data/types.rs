@@ -1,7 +1,7 @@
 //! The types of RAPID: their names and components, and the atoms that values consist of.
 
+use crate::prelude::*;
 use alloc::borrow::Cow;
-use alloc::string::String;
 use arrayvec::ArrayVec;
 use core::fmt;
 

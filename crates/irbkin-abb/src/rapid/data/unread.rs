@@ -1,8 +1,7 @@
 //! Reasons why values are unknown. Names and words are as they are written.
 
+use crate::prelude::*;
 use core::fmt;
-
-use alloc::string::String;
 
 use thiserror::Error;
 

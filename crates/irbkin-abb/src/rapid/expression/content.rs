@@ -1,10 +1,9 @@
 //! The content of a declaration: a value, or the elements of an array.
 
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::evaluate::{Evaluator, Stop, positive_whole};
+use crate::prelude::*;
 use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::unread::Reason;

@@ -1,10 +1,8 @@
 //! Values without names and operators, most of a large module: read straight into their records,
 //! without tokens and trees.
 
-use alloc::boxed::Box;
-use alloc::string::String;
-
 use super::evaluate::whole;
+use crate::prelude::*;
 use crate::rapid::data::expression::{Expression, Form};
 use crate::rapid::data::types::{Atom, Atoms, Shape, Type};
 use crate::rapid::data::value::{DataType, Value};

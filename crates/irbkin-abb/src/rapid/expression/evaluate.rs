@@ -1,14 +1,11 @@
 //! Evaluate expressions where a value of some type is expected.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use alloc::borrow::Cow;
-use alloc::string::{String, ToString};
 use core::ops::Range;
 
 use super::geometry::{cross, difference, product, scaled, sum};
 use super::names::{At, Lookup, Names};
+use crate::prelude::*;
 use crate::rapid::data::expression::{Expression, Form, Name, Operator, written};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::own_types::DEEPEST_TYPE;

@@ -1,17 +1,12 @@
 //! RAPID's functions of numbers, vectors, rotations, poses, targets and the robot: one table.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
-
-use alloc::string::ToString;
-use alloc::vec::Vec;
-
 use super::evaluate::{Component, Evaluator, Stop};
 use super::geometry::{
     cross, def_frame, difference, dot, euler_zyx, length, mir_pos, normalized, offs, orient_zyx,
     pose_inv, pose_mult, pose_vect, rel_tool,
 };
 use super::names::{Lookup, Question};
+use crate::prelude::*;
 use crate::rapid::data::expression::{Call, Expression};
 use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::{RobTarget, WobjData};

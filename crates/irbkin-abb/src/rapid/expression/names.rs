@@ -2,10 +2,9 @@
 //! speeds and zones.
 
 use alloc::borrow::Cow;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::ops::Range;
 
+use crate::prelude::*;
 use crate::rapid::data::expression::Expression;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::Target;

@@ -1,9 +1,6 @@
 //! Read expressions as trees.
 
-use alloc::boxed::Box;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
-
+use crate::prelude::*;
 use crate::rapid::data::expression::{
     Arguments, Call, Expression, Form, Name, Operator, Optional, Reference, Relation,
 };

@@ -1,8 +1,8 @@
 //! Two versions of a module compared as other modules see it, to read no others again.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::String;
 
+use crate::prelude::*;
 use crate::rapid::data::module::{Datum, Module, Scope};
 
 /// The names in lower case by which two versions of a module differ to other modules: data that are

@@ -2,11 +2,10 @@
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeSet;
-use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, RoutineKind};
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::statement::{Statement, StatementKind};

@@ -1,13 +1,12 @@
 //! Modules as RAPID text, and values replaced in a text without any other change.
 
 use alloc::collections::BTreeMap;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::fmt::{self, Write as _};
 use core::ops::Range;
 
 use super::read::nowhere;
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::statement::StatementKind;

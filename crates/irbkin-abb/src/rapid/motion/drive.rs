@@ -1,10 +1,9 @@
 //! Go through the moves of a routine in order and follow each of them.
 
-use alloc::vec::Vec;
-
 use super::goal::{Conf, Goal, Place};
 use super::joints::{Path, Samples, joint_line, nearest_written, round_joints, solved, way};
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{OrFinding, broken, no_path, passes};

@@ -1,12 +1,10 @@
 //! A move with everything in meters, radians and seconds, and what is wrong with it as it is
 //! written.
 
-use alloc::boxed::Box;
 use alloc::rc::Rc;
-use alloc::string::ToString;
-use alloc::vec::Vec;
 
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::confdata::{is_old_form, of_old_form};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::table::{frames_of, target_of};

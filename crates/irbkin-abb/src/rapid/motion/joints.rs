@@ -1,13 +1,11 @@
 //! Moves of the joints: samples of a motion, straight lines in joint space, and corners rounded in
 //! joint space, where the tool does not go on lines of one work object on both sides.
 
-use alloc::vec::Vec;
 use core::ops::Range;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::goal::{Conf, Goal, Place};
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::confdata::{Over, near, over_quarters};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{ambiguous, beside_taken, nearest_taken, not_solved};

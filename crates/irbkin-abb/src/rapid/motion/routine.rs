@@ -1,16 +1,12 @@
 //! A routine as one motion.
 
-#[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
-
 use alloc::collections::BTreeSet;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 
 use super::drive::{Drive, Made, MotionOptions};
 use super::goal::Goal;
 use super::joints::Samples;
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::table::external_axes;
 use crate::rapid::calc::target::{converter, with_flange};
 use crate::rapid::calc::units::Units;

@@ -1,12 +1,11 @@
 //! A motion as a module of its own.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use super::routine::RoutineMotion;
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::target::joint_target;
 use crate::rapid::data::module::{Datum, Module, Storage};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, MoveOption, Target};

@@ -2,8 +2,6 @@
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::rc::Rc;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::mem;
 
 use super::cases::Known;
@@ -12,6 +10,7 @@ use super::state::{Frame, Local, Locals, MOST_KNOWN, Site, Text};
 use super::values::Calls;
 use super::walker::Walk;
 use super::whole::Program;
+use crate::prelude::*;
 use crate::rapid::data::expression::{Arguments, Call, Expression};
 use crate::rapid::data::module::{Content, Parameter, Storage};
 use crate::rapid::data::statement::{Instruction, Statement};

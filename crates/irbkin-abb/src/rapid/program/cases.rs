@@ -2,12 +2,11 @@
 //! the text leaves open, such as which part of a branch is executed.
 
 use alloc::rc::Rc;
-use alloc::string::String;
-use alloc::vec::Vec;
 use core::cell::{Cell, RefCell};
 
 use arrayvec::ArrayVec;
 
+use crate::prelude::*;
 use crate::rapid::data::module::Content;
 
 /// Most values of a datum that are followed, and most cases of a statement.

@@ -3,13 +3,12 @@
 
 use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::String;
-use alloc::vec::Vec;
 use core::cell::Cell;
 use core::ops::Range;
 
 use super::index::{DatumId, Index};
 use super::tree::{Block, Node, nodes};
+use crate::prelude::*;
 use crate::rapid::data::expression::Arguments;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;

@@ -1,11 +1,10 @@
 //! The names of a program: which routine and which datum a name refers to in each module.
 
 use alloc::collections::BTreeMap;
-use alloc::string::String;
-use alloc::vec::Vec;
 
 use super::cases::{Known, saved_value};
 use super::tree::{Body, bodies};
+use crate::prelude::*;
 use crate::rapid::data::module::{Datum, Module, Parameter, Routine, RoutineKind, Scope, Storage};
 use crate::rapid::data::statement::StatementKind;
 use crate::rapid::data::unread::Unresolved;

@@ -1,13 +1,13 @@
 //! Moves with the values that they have at a place, and what displaces their targets there.
 
 use alloc::borrow::Cow;
-use alloc::boxed::Box;
 use alloc::rc::Rc;
 use alloc::sync::Arc;
 
 use super::state::{Displacement, Offsets, Place, State};
 use super::values::{Scope, argument};
 use crate::Error;
+use crate::prelude::*;
 use crate::rapid::calc::frames::{pose_in, rapid_pose};
 use crate::rapid::calc::target::target_pose;
 use crate::rapid::calc::units::MOST_DEGREES;

@@ -2,14 +2,13 @@
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::rc::Rc;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::cell::Cell;
 use core::ops::Range;
 
 use super::cases::{Case, Known, Questions};
 use super::index::DatumId;
 use super::whole::Program;
+use crate::prelude::*;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::{Move, Target};
 use crate::rapid::data::records::RapidPose;

@@ -1,10 +1,9 @@
 //! The statements of a routine as a tree: branches and loops with what is in them.
 
 use alloc::collections::BTreeMap;
-use alloc::string::String;
-use alloc::vec::Vec;
 use core::mem;
 
+use crate::prelude::*;
 use crate::rapid::data::expression::Expression;
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;

@@ -1,8 +1,6 @@
 //! Values at a place of a program: names looked up, arguments evaluated, assignments made.
 
 use alloc::collections::BTreeMap;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
@@ -11,6 +9,7 @@ use super::index::DatumId;
 use super::state::{Displacement, Frame, State};
 use super::tree::Part;
 use super::whole::Program;
+use crate::prelude::*;
 use crate::rapid::calc::wrong::not_solved;
 use crate::rapid::data::expression::{Call, Expression, Form, Name};
 use crate::rapid::data::finding::{Code, Finding};

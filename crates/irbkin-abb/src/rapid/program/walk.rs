@@ -2,11 +2,8 @@
 //! certainly follows the one before it.
 
 use alloc::borrow::Cow;
-use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::rc::Rc;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 
 use super::cases::{Case, Known, Way};
 use super::effects::{releases, written_by};
@@ -16,6 +13,7 @@ use super::tree::{Block, Node, Part, nodes};
 use super::values::Calls as _;
 use super::walker::{END_OF_MAIN, Filled, MOVE, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
+use crate::prelude::*;
 use crate::rapid::data::expression::Expression;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;

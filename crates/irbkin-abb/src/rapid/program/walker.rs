@@ -1,10 +1,7 @@
 //! The state of going through a program, and the steps that it finds.
 
-use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::rc::Rc;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::cell::{Cell, RefCell};
 use core::ops::Deref;
 
@@ -15,6 +12,7 @@ use super::state::{Frame, Here, Site, State};
 use super::tree::{Block, Node, nodes};
 use super::values::Scope;
 use super::whole::Program;
+use crate::prelude::*;
 use crate::rapid::data::expression::Expression;
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::instructions::Effect;

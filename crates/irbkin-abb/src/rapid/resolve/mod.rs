@@ -3,14 +3,12 @@
 mod moves;
 pub(crate) mod resolver;
 
-use alloc::boxed::Box;
-use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
 
 use self::resolver::{Causes, Resolver};
+use crate::prelude::*;
 use crate::rapid::data::module::{Datum, Module, routine_name};
 use crate::rapid::data::statement::{Statement, StatementKind};
 use crate::rapid::data::unread::Reason;

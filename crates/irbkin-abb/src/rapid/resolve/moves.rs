@@ -1,12 +1,10 @@
 //! Moves with the values of their arguments.
 
-use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
-use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use super::resolver::Resolver;
+use crate::prelude::*;
 use crate::rapid::data::expression::{Arguments, Expression, Optional};
 use crate::rapid::data::moves::{Argument, ExtraArgument, Move, MoveKind, MoveOption, Target};
 use crate::rapid::data::moving::Places;

@@ -2,11 +2,10 @@
 //! differ from their declarations.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
 
+use crate::prelude::*;
 use crate::rapid::data::expression::Name;
 use crate::rapid::data::module::{Datum, Module, Scope, Storage};
 use crate::rapid::data::types::{LOADDATA, TOOLDATA, Type};

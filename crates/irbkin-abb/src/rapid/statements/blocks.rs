@@ -1,9 +1,7 @@
 //! Control flow: the lines of branches, loops and handlers.
 
-use alloc::boxed::Box;
-use alloc::vec::Vec;
-
 use super::declarations::read_name;
+use crate::prelude::*;
 use crate::rapid::data::expression::Expression;
 use crate::rapid::data::statement::{Condition, Counter, Flow};
 use crate::rapid::expression::reader::{DEEPEST_NESTING, ExpressionReader};

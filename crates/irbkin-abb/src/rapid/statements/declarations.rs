@@ -1,11 +1,8 @@
 //! Declarations of data.
 
-use alloc::boxed::Box;
-use alloc::string::String;
-use alloc::vec::Vec;
-
 use super::faults::{Faults, end_statement};
 use super::types::{TypeKind, Types};
+use crate::prelude::*;
 use crate::rapid::data::expression::{Expression, Form, Name};
 use crate::rapid::data::module::{Scope, Storage};
 use crate::rapid::data::own_types::DEEPEST_TYPE;

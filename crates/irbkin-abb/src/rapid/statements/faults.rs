@@ -1,7 +1,6 @@
 //! The faults of a text, and texts that are none.
 
-use alloc::vec::Vec;
-
+use crate::prelude::*;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::skipping::at_line;
 use crate::rapid::text::tokens::Tokens;

@@ -1,14 +1,11 @@
 //! Instructions: moves, and those that are not read but move the robot, displace its targets, or
 //! write to their arguments.
 
-use alloc::boxed::Box;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
-
 use super::blocks::demand_word;
 use super::faults::end_statement;
 use super::moves::{WrittenMove, read_move};
 use super::reader::{Assignment, Named, StatementReader};
+use crate::prelude::*;
 use crate::rapid::data::expression::{Arguments, Expression, Form, Name};
 use crate::rapid::data::instructions::{Effect, Shift};
 use crate::rapid::data::lookup::written_argument;

@@ -1,11 +1,9 @@
 //! Types that a program defines: records and aliases.
 
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
-
 use super::declarations::read_name;
 use super::reader::{Named, StatementReader};
 use super::recovery::begins_other;
+use crate::prelude::*;
 use crate::rapid::data::module::Scope;
 use crate::rapid::data::own_types::{Definition, OwnType};
 use crate::rapid::data::statement::StatementKind;

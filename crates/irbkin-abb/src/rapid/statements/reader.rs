@@ -2,15 +2,14 @@
 
 use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;
-use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use super::blocks::Blocks;
 use super::declarations::Declared;
 use super::faults::Faults;
 use super::moves::WrittenMove;
 use super::types::Types;
+use crate::prelude::*;
 use crate::rapid::data::expression::Name;
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::settings::MotionSettings;

@@ -1,8 +1,7 @@
 //! Going on behind a fault, in a text that is read in spite of its faults.
 
-use alloc::string::ToString;
-
 use super::reader::StatementReader;
+use crate::prelude::*;
 use crate::rapid::data::statement::{Flow, StatementKind};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::excerpt;

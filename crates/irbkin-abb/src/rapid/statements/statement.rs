@@ -1,9 +1,6 @@
 //! A module's statements in sequence: declarations, moves and routines are read, everything else is
 //! listed as not read.
 
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
-
 use super::blocks::is_flow;
 use super::declarations::DatumPart;
 use super::declarations::{Declaration, read_declaration, read_name};
@@ -11,6 +8,7 @@ use super::faults::{Faults, is_encoded};
 use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
 use super::recovery::begins_other;
 use super::types::Types;
+use crate::prelude::*;
 use crate::rapid::data::module::{Module, Parameter, Routine, RoutineKind, Scope, Storage};
 use crate::rapid::data::own_types::OwnTypes;
 use crate::rapid::data::settings::MotionSettings;

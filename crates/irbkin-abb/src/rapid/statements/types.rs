@@ -1,7 +1,6 @@
 //! The types that a module may use: RAPID's, its own, and other modules'.
 
-use alloc::string::String;
-
+use crate::prelude::*;
 use crate::rapid::data::module::Module;
 use crate::rapid::data::own_types::{DEEPEST_TYPE, Definition, OwnTypes};
 use crate::rapid::data::value::DataType;

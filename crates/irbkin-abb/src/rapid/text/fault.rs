@@ -1,8 +1,7 @@
 //! RAPID texts, routines and frames that are refused.
 
+use crate::prelude::*;
 use core::fmt;
-
-use alloc::string::{String, ToString};
 
 use thiserror::Error;
 

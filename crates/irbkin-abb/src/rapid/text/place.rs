@@ -1,7 +1,6 @@
 //! Lines and columns of a text, and the part of it that a message repeats.
 
-use alloc::string::String;
-
+use crate::prelude::*;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 
 /// Most characters of the text that a message repeats.

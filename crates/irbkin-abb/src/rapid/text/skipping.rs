@@ -1,8 +1,7 @@
 //! Where a text goes on behind a fault, and lines that are none of RAPID's.
 
-use alloc::string::ToString;
-
 use super::tokens::{Token, TokenKind, Tokens, behind_blanks};
+use crate::prelude::*;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::words::{end_of_word, is_reserved};
 

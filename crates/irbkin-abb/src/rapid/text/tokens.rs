@@ -1,13 +1,12 @@
 //! RAPID text as tokens: names, numbers, strings and symbols, without blanks and comments.
 
 use alloc::borrow::Cow;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use core::cell::Cell;
 use core::ops::Range;
 
 use super::place::{Place, excerpt};
 use super::words::{end_of_word, is_word_byte};
+use crate::prelude::*;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 
 /// Most letters of a placeholder; RAPID's own have two or three.

@@ -8,13 +8,12 @@
 //! the faces, the second ones and the third ones. Points and faces are sorted. So it is compressed
 //! to 109 kB, and to 130 kB point by point.
 
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
 
 use super::UNIT;
 use crate::body::links::LinkHull;
 use crate::body::shape::{Capsule, RoundedHull};
+use crate::prelude::*;
 
 const HULLS: &[u8] = include_bytes!("hulls.bin");
 

@@ -19,10 +19,10 @@
 mod hulls;
 
 use alloc::borrow::Cow;
-use alloc::vec::Vec;
 
 use super::links::{Body, LinkCapsule};
 use super::shape::Capsule;
+use crate::prelude::*;
 
 const ARMS: &str = include_str!("arms.txt");
 

@@ -1,12 +1,11 @@
 //! Checks of the lengths and points of shapes.
 
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
 
 use super::tree::Bounds;
 use crate::body::fault::BodyFault;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::checked_pose;
 use irbkin::internal::thresholds::MOST_LENGTH;

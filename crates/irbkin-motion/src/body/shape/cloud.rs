@@ -1,17 +1,15 @@
 //! Clouds of points: balls of one radius.
 
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{check_points, check_size};
 use super::segment::{Nearest, Segment, at, nearer, part_near};
 use super::tree::{Bounds, Tree, above};
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Interrupt;
 
 /// Points, and all that is within a radius of them.

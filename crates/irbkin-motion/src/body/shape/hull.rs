@@ -1,11 +1,8 @@
 //! The convex hull of points: how far other shapes are from it, without its faces.
 
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{LEAST, check_points};
@@ -13,6 +10,7 @@ use super::gjk::{Convex, DistanceQuery, nearest};
 use super::tree::{Bounds, Tree};
 use crate::body::fault::BodyFault;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Interrupt;
 
 /// The convex hull of points.

@@ -1,11 +1,8 @@
 //! Triangle meshes: solids by their surface, or surfaces alone.
 
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::check_points;
@@ -15,6 +12,7 @@ use super::tree::{Bounds, Tree, above};
 use super::triangle::{Triangle, segment_and, square_outside};
 use super::weld::closed;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Interrupt;
 
 /// Directions in which a point looks for its way out of a mesh, one after another while an edge is

@@ -1,12 +1,9 @@
 //! Convex hulls with a radius: what moves with a link, finer than its capsules.
 
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{check_length, check_points};
@@ -14,6 +11,7 @@ use super::gjk::{Convex, DistanceQuery, Framed, SeparatingDirection, nearest, pl
 use super::tree::Bounds;
 use crate::body::fault::BodyFault;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::Pose;
 use irbkin::internal::lanes::{Column, LANES, Number as _, Vector, VectorKernel, run_vectors};
 

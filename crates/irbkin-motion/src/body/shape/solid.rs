@@ -1,10 +1,6 @@
 //! Shapes of obstacles.
 
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{check_length, check_point, check_size, placed};
@@ -15,6 +11,7 @@ use super::mesh::Mesh;
 use super::tree::Bounds;
 use crate::body::fault::BodyFault;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::internal::checked_pose;
 use irbkin::{Interrupt, Pose};
 

@@ -1,16 +1,14 @@
 //! Surfaces of solids: whether triangles enclose a volume, and which of them a ray goes through.
 
 use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
 
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::checks::LEAST;
 use super::triangle::{Triangle, edges};
 use crate::body::fault::BodyFault;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::{Interrupt, Interrupted};
 
 /// Bound of the rounding of a product of three vectors, relative to the product of their lengths

@@ -1,12 +1,9 @@
 //! A tree of boxes around items, which finds the least value of thousands of them.
 
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
-#[cfg(not(feature = "std"))]
-use nalgebra::{ComplexField as _, RealField as _};
 
 use super::segment::{NOWHERE, Nearest, Segment, at, part_near};
+use crate::prelude::*;
 use irbkin::{Interrupt, Interrupted, Pose};
 
 /// Items of a leaf, at most.

@@ -4,7 +4,6 @@
 //! closed stays as it is. Else corners within the least distance that closes it are made one.
 
 use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
 
 use nalgebra::Vector3;
 
@@ -12,6 +11,7 @@ use super::surface::opening;
 use super::tree::Bounds;
 use super::triangle::Triangle;
 use crate::error::Error;
+use crate::prelude::*;
 use irbkin::internal::lanes::whole_below;
 use irbkin::{Interrupt, Interrupted};
 
