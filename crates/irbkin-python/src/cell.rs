@@ -74,11 +74,9 @@ impl PyCell {
             })?;
             read.push((name, shape.get().0.clone()));
         }
-        let cell = Cell::new(read, margin)
-            .map_err(exception)?
-            .with_may_touch(&may_touch.unwrap_or_default())
-            .map_err(exception)?;
-        Ok(cell.into())
+        let may_touch = may_touch.unwrap_or_default();
+        let cell = Cell::new(read, margin).and_then(|cell| cell.with_may_touch(&may_touch));
+        Ok(cell.map_err(exception)?.into())
     }
 
     /// Read a cell of TOML, of URDF or of MoveIt, as described in docs/guide/cell.md.

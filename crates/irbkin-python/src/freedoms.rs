@@ -98,13 +98,8 @@ pub(super) fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalA
             ExternalAxis::positioner(point, direction, lower, upper, steps)
         };
         let (max_velocity, weight) = (fields.number("max_velocity")?, fields.number("weight")?);
-        axes.push(
-            made.map_err(exception)?
-                .with_max_velocity(max_velocity)
-                .map_err(exception)?
-                .with_weight(weight)
-                .map_err(exception)?,
-        );
+        let made = made.and_then(|axis| axis.with_max_velocity(max_velocity)?.with_weight(weight));
+        axes.push(made.map_err(exception)?);
     }
     Ok(axes)
 }
