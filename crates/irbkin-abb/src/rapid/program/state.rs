@@ -103,10 +103,6 @@ impl State {
         }
     }
 
-    pub(super) fn knows_as(&self, other: &Self) -> bool {
-        self.globals == other.globals && self.locals == other.locals
-    }
-
     /// How many contents were copied since it was the other one: all or none.
     pub(super) fn copied(&self, other: &Self) -> usize {
         let globals =

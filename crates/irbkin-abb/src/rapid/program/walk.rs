@@ -461,7 +461,7 @@ impl<'m> Walk<'_, 'm> {
                 if self.state.here == Here::Left {
                     return;
                 }
-                if self.state.knows_as(&before) {
+                if self.state.globals == before.globals && self.state.locals == before.locals {
                     break;
                 }
             }

@@ -77,12 +77,6 @@ impl StatementReader<'_> {
         self.written.module.routines.get(self.routine.checked_sub(1)?)
     }
 
-    /// The word that ends the innermost block or else the routine.
-    pub(super) fn expected_end(&self) -> Option<&'static str> {
-        let block = self.written.blocks.innermost().map(|(_, end)| end);
-        block.or_else(|| self.current_routine().map(|routine| routine.kind.end()))
-    }
-
     pub(super) fn declare(
         &mut self,
         at: Token,

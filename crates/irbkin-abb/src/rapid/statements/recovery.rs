@@ -53,7 +53,9 @@ impl StatementReader<'_> {
 
     /// Report and close what is open where something else begins.
     pub(super) fn close_all(&mut self) -> Result<(), RapidFault> {
-        if let Some(end) = self.expected_end() {
+        let block = self.written.blocks.innermost().map(|(_, end)| end);
+        let routine = || self.current_routine().map(|routine| routine.kind.end());
+        if let Some(end) = block.or_else(routine) {
             self.complain(self.tokens.unexpected(end))?;
             self.close_blocks(0, self.tokens.peek().start);
             self.leave_routine();
