@@ -142,9 +142,7 @@ impl<const N: usize> PlanOptions<N> {
         }
         Ok(())
     }
-}
 
-impl<const N: usize> PlanOptions<N> {
     /// The time of each of `count` poses [s].
     pub(super) fn times_of(&self, count: usize) -> Vec<f64> {
         match &self.times {

@@ -51,7 +51,7 @@ pub fn spline(
 
 /// The curve through waypoints at knots, the first of which is 0.
 fn curve(kind: SplineKind, waypoints: &[f64], dof: usize, knots: Vec<f64>) -> Trajectory {
-    let rest = alloc::vec![0.0; dof];
+    let rest = vec![0.0; dof];
     let terms = match kind {
         SplineKind::Cubic => cubic(&knots, waypoints, dof, Ends::Clamped([&rest, &rest])),
         SplineKind::Quintic => quintic(&knots, waypoints, dof),
@@ -110,7 +110,7 @@ fn spaced(waypoints: &[f64], dof: usize, limits: &[AxisLimits]) -> Result<Vec<f6
         return Err(MotionFault::TooFew { field: "q", found, least: 2 }.into());
     }
     let has_velocity = limits.iter().all(|limits| limits.velocity.is_finite());
-    let mut times = alloc::vec![0.0];
+    let mut times = vec![0.0];
     let rows = waypoints.chunks_exact(dof);
     for (index, (row, before)) in rows.clone().skip(1).zip(rows).enumerate() {
         let ways = row.iter().zip(before).map(|(to, from)| (to - from).abs());

@@ -164,7 +164,7 @@ fn shape_of(collision: Node<'_, '_>) -> Result<Option<Shape>, String> {
         rpy = numbers(origin, "rpy")?.unwrap_or(rpy);
         if let Some([x, y, z, w]) = numbers(origin, "quat_xyzw")? {
             let turned = pose_from_wxyz([0.0; 3], [w, x, y, z]);
-            let (_, zyx) = pose_to_euler_zyx(&turned.map_err(|error| alloc::format!("{error}"))?);
+            let (_, zyx) = pose_to_euler_zyx(&turned.map_err(|error| format!("{error}"))?);
             rpy = [zyx[2], zyx[1], zyx[0]];
         }
     }
@@ -186,12 +186,12 @@ fn shape_of(collision: Node<'_, '_>) -> Result<Option<Shape>, String> {
         }
         _ => return Ok(None),
     };
-    shape.map(Some).map_err(|error| alloc::format!("{}: {error}", solid.tag_name().name()))
+    shape.map(Some).map_err(|error| format!("{}: {error}", solid.tag_name().name()))
 }
 
 /// The numbers of an attribute that must be there.
 fn needed<const K: usize>(node: Node<'_, '_>, name: &str) -> Result<[f64; K], String> {
-    let missing = || alloc::format!("{} has no {name}", node.tag_name().name());
+    let missing = || format!("{} has no {name}", node.tag_name().name());
     numbers(node, name)?.ok_or_else(missing)
 }
 
@@ -206,7 +206,7 @@ fn numbers<const K: usize>(node: Node<'_, '_>, name: &str) -> Result<Option<[f64
     }
     let (element, text) = (node.tag_name().name(), text.chars().take(60));
     let text: String = text.collect();
-    Err(alloc::format!("{element} {name} is {text:?}, it must be {K} finite numbers"))
+    Err(format!("{element} {name} is {text:?}, it must be {K} finite numbers"))
 }
 
 /// Capsules that contain shapes, and their excess. A cylinder with a sphere at each end, written
@@ -266,7 +266,7 @@ pub(super) fn body_of<const N: usize>(
     if capsules.iter().all(|own| own.link <= N) {
         excess.truncate(N + 1);
     }
-    let source = alloc::format!("collision shapes of a URDF{remark}");
+    let source = format!("collision shapes of a URDF{remark}");
     Some(arm.body_of_shapes(capsules, excess, source))
 }
 

@@ -89,14 +89,14 @@ impl Sweep {
             kind => return Err(refused(kind.to_owned())),
         };
         if before == MOST_JOINTS {
-            return Err(refused(alloc::format!("behind {MOST_JOINTS} others")));
+            return Err(refused(format!("behind {MOST_JOINTS} others")));
         }
-        let others = alloc::format!("a mimic behind {MOST_JOINTS} others");
+        let others = format!("a mimic behind {MOST_JOINTS} others");
         let mut range = range_of(joint, tree, MOST_JOINTS)?.ok_or_else(|| refused(others))?;
         // NaN where both are infinite.
         let way = range[1] - range[0];
         if is_slide && (way.is_nan() || way > MOST_REACH) {
-            return Err(refused(alloc::format!("prismatic, with limits {way} m apart")));
+            return Err(refused(format!("prismatic, with limits {way} m apart")));
         } else if !is_slide && (way.is_nan() || way > 2.0 * PI) {
             range = [-PI, PI];
         }

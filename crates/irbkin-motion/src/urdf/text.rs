@@ -77,13 +77,12 @@ impl Text {
         for element in ["visual", "collision"] {
             for capsule in capsules {
                 let ([a, b], radius) = (capsule.ends(), capsule.radius());
-                let sphere = alloc::format!("<sphere radius=\"{radius}\"/>");
+                let sphere = format!("<sphere radius=\"{radius}\"/>");
                 self.solid(element, a, [0.0; 3], &sphere);
                 if !capsule.is_sphere() {
                     self.solid(element, b, [0.0; 3], &sphere);
                     let (pose, length) = along(a, b);
-                    let cylinder =
-                        alloc::format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>");
+                    let cylinder = format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>");
                     let (xyz, [yaw, pitch, roll]) = pose_to_euler_zyx(&pose);
                     self.solid(element, xyz, [roll, pitch, yaw], &cylinder);
                 }
@@ -162,7 +161,7 @@ fn along(a: [f64; 3], b: [f64; 3]) -> (Pose, f64) {
 /// Three numbers with the digits to be read back as they are. Adding zero removes minus zero.
 fn numbers(values: [f64; 3]) -> String {
     let [x, y, z] = values.map(|value| value + 0.0);
-    alloc::format!("{x} {y} {z}")
+    format!("{x} {y} {z}")
 }
 
 /// Limits as text has them, which has no infinity.

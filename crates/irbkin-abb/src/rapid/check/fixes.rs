@@ -78,7 +78,7 @@ impl Written {
     fn edits(&self, from: Configuration, to: Configuration) -> Vec<Edit> {
         let Some(numbers) = &self.numbers else {
             let Configuration { cf1, cf4, cf6, cfx } = to;
-            let text = alloc::format!("[{cf1},{cf4},{cf6},{cfx}]");
+            let text = format!("[{cf1},{cf4},{cf6},{cfx}]");
             return Vec::from([Edit { module: self.module, span: self.span.clone(), text }]);
         };
         let pairs =

@@ -116,7 +116,7 @@ impl Data {
         let mut number = 0;
         while !is_name(&name) || predefined(&name.to_lowercase()).is_some() {
             number += 1;
-            name = alloc::format!("{prefix}_{number}");
+            name = format!("{prefix}_{number}");
             if self.known.contains(&name) {
                 name.clear();
             }

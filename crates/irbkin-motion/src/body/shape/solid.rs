@@ -208,7 +208,7 @@ impl Shape {
     pub fn union(shapes: Vec<Self>) -> Result<Self, Error> {
         let parts = |shape| match shape {
             Self::Union(parts) => parts,
-            one => alloc::vec![one],
+            one => vec![one],
         };
         let parts: Vec<_> = shapes.into_iter().flat_map(parts).collect();
         if parts.is_empty() { Err(BodyFault::NoShape.into()) } else { Ok(Self::Union(parts)) }
