@@ -46,7 +46,6 @@ def reporter(progress: Report | Bar | None) -> Report:
 
 
 def check_robot(robot: object) -> None:
-    """Refuse any object but a robot, a name for instance."""
     if not isinstance(robot, Robot):
         remedy = f": give Robot({robot!r})" if isinstance(robot, str) else ""
         raise TypeError(f"robot must be a Robot, got {type(robot).__name__}{remedy}")
@@ -64,7 +63,6 @@ def count(value: object, name: str, error: type[IrbkinError]) -> int:
 
 
 def check_extra(function: str, extra: str, *packages: str) -> None:
-    """Refuse to go on without a package of an extra."""
     for name in packages:
         try:
             import_module(name)
@@ -74,7 +72,6 @@ def check_extra(function: str, extra: str, *packages: str) -> None:
 
 
 def close(name: str, known: Iterable[str]) -> str:
-    """The known names that are spelled like one, or the first ones, for a message."""
     import difflib
 
     names = sorted(known)

@@ -77,7 +77,6 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
 
 
 def is_arm_file(name: str) -> bool:
-    """Whether the name of a robot is a file."""
     return name.lower().endswith(".urdf") or ROBOTSTUDIO.fullmatch(name) is not None
 
 

@@ -88,7 +88,6 @@ def tidy(axes: Axes) -> None:
 
 
 def legend(drawn: Canvas, axes: Axes, columns: int) -> None:
-    """Give a figure the legend of one of its axes, below it."""
     handles, labels = axes.get_legend_handles_labels()
     place: Any = {"loc": "outside lower center", "ncols": columns, "frameon": False}
     drawn.legend(handles, labels, fontsize=FONT, handlelength=3.2, **place)

@@ -344,7 +344,6 @@ def _answered(response: Message) -> Iterator[None]:
 
 
 def _vector(values: Sequence[float]) -> Floats:
-    """Numbers of a sequence; a tuple in ROS 1, an `array.array` in ROS 2."""
     return np.asarray(values, dtype=np.float64)
 
 

@@ -55,7 +55,6 @@ class Entry:
         raise EntryError(": ".join([", ".join(places), str(cause)]) if places else str(cause))
 
     def check(self, *known: str) -> None:
-        """Refuse keys that are not known."""
         for key in self.table:
             if key not in known:
                 self.refuse(f"unknown key; {close(key, known)}", key)

@@ -249,7 +249,6 @@ def _in_frame(entry: Entry, frames: dict[str, Floats]) -> Floats:
 
 
 def _check_robot(root: Entry, obstacles: Mapping[str, Any]) -> None:
-    """Refuse what changes the robot for collisions."""
     for key, field, neutral in [("link_padding", "padding", 0.0), ("link_scale", "scale", 1.0)]:
         for item in items_of(root, key):
             if item.number(field, neutral) != neutral:

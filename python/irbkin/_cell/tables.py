@@ -188,7 +188,6 @@ _SHAPES: dict[str, tuple[Callable[[Entry], Shape], tuple[str, ...]]] = {
 
 
 def _file_or_rows(entry: Entry, key: str) -> Any:
-    """Rows of numbers, of the entry or of an .npy file, or the path of a file of a mesh."""
     value = entry.table[key]
     try:
         if not isinstance(value, str):

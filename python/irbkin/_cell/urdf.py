@@ -165,7 +165,6 @@ def _shape(element: ElementTree.Element, folder: Path, solid: bool) -> Shape:
 
 
 def _pairs(path: str, shapes: dict[str, Shape], numbers: dict[str, int]) -> list[tuple[str, int]]:
-    """The pairs of an obstacle and a link that an SRDF leaves out."""
     if not os.path.isfile(path):
         return []
     with open(path, "rb") as file:

@@ -155,7 +155,6 @@ def cost(row: Array, solid: Solid) -> float:
 
 
 def distances(points: Array, row: Array) -> Array:
-    """Distances of points from the axis of a capsule."""
     axis = row[3:6] - row[:3]
     length = axis @ axis
     along = (points - row[:3]) @ axis
@@ -192,7 +191,6 @@ def excess_of(solid: Solid, rows: Array, rng: np.random.Generator) -> float:
 
 
 def axes_of(points: Array) -> Array:
-    """The principal axes of points, the longest one last, shape (3, 3)."""
     off = points - points.mean(axis=0)
     return np.linalg.eigh(off.T @ off)[1].T
 

@@ -38,7 +38,6 @@ class Part(NamedTuple):
 
 
 def parts_of(triangles: Array) -> list[Part]:
-    """The parts into which planes cut triangles."""
     parts = [part_of(triangles)]
     cuts = [best_cut(parts[0])]
     while len(parts) < MOST:

@@ -85,7 +85,6 @@ def text_and_folder(urdf: str | bytes | os.PathLike[str]) -> tuple[str | bytes, 
 def solid_of(
     shape: ElementTree.Element, link: str, folder: Path | None, packages: Packages
 ) -> Array:
-    """The triangles of a shape in its own frame."""
     kinds = [*shape.iterfind("geometry/*")]
     if not kinds:
         raise InvalidModelError("has a shape without geometry")
@@ -120,7 +119,6 @@ def solid_of(
 
 
 def ring() -> Array:
-    """A polygon around the unit circle."""
     angle = np.arange(SIDES) * 2 * np.pi / SIDES
     points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
     return np.asarray(points / np.cos(np.pi / SIDES))

@@ -137,7 +137,6 @@ def child(element: Element | None, name: str) -> Element | None:
 
 
 def parts(element: Element, name: str) -> list[Element]:
-    """The children of the first child of a name."""
     found = child(element, name)
     return [] if found is None else [*found]
 

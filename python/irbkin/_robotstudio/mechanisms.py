@@ -169,7 +169,6 @@ def _by_kind(content: bytes) -> _Elements:
 
 
 def _definition(name: str, locations: dict[int, str], instance: Element) -> tuple[str, int]:
-    """The library and the number of the definition of an instance."""
     reference = xml.child(instance, "definition")
     if reference is None:
         return name, -1

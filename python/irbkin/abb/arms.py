@@ -102,7 +102,6 @@ def _in_force(
 
 
 def _differing(joint: str, own: tuple[float, float], catalog: Any) -> tuple[LimitDifference, ...]:
-    """Return the difference of a pair of limits from the catalog's, if it is one."""
     lower, upper = (math.nan, math.nan) if catalog is None else map(float, catalog)
     if abs(own[0] - lower) <= SAME_LIMIT and abs(own[1] - upper) <= SAME_LIMIT:
         return ()

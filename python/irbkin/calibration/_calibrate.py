@@ -50,7 +50,6 @@ class CalibratedParameter(NamedTuple):
 
     @property
     def correction(self) -> float:
-        """Fitted minus nominal value."""
         return self.fitted - self.nominal
 
 
@@ -77,7 +76,6 @@ class Residuals(NamedTuple):
 
     @classmethod
     def of(cls, position: Floats, rotation: Floats) -> Residuals:
-        """Summary of the distances and angles of poses, shapes (m,)."""
         figures = []
         for values in (position, rotation):
             known = values if len(values) else np.full(1, np.nan)
@@ -132,7 +130,6 @@ class Calibration(NamedTuple):
 
     @property
     def identifiable(self) -> tuple[str, ...]:
-        """Names of the fitted parameters."""
         return tuple(parameter.name for parameter in self.parameters)
 
     @property
@@ -405,7 +402,6 @@ def _calibration(
 def _cross_validated(
     problem: _fit.Problem, kept: Sequence[int], corrections: Floats, folds: int, report: Report
 ) -> Residuals | None:
-    """Residuals of each part of the measurements with the corrections that the others give."""
     measurements = problem.measurements
     count, numbers = len(measurements), measurements.numbers
     if folds == 0 or folds > count or numbers * (count - -(-count // folds)) <= len(kept):

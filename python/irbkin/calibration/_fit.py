@@ -83,7 +83,6 @@ def errors_of(poses: Floats, position: Floats, rotation: Floats | None) -> tuple
 
 
 def rotation_vectors(rotations: Floats) -> Floats:
-    """Rotation vectors [rad], shape (m, 3)."""
     from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
 
     return np.asarray(Rotation.from_matrix(rotations).as_rotvec(), dtype=np.float64)

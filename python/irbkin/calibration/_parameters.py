@@ -120,7 +120,6 @@ def _unit_columns(jacobian: Floats) -> Floats:
 
 
 def condition(jacobian: Floats) -> float:
-    """Condition number with columns scaled to one."""
     values = np.linalg.svd(_unit_columns(jacobian), compute_uv=False)
     return float(values[0] / values[-1])
 
@@ -134,7 +133,6 @@ def _combination(jacobian: Floats, kept: Sequence[int], index: int) -> tuple[Flo
 
 
 def _listed(factors: Floats, kept: Sequence[int], names: Sequence[str]) -> str:
-    """The parameters with the largest factors, in words."""
     sizes = np.abs(factors)
     order = [i for i in np.argsort(-sizes, kind="stable") if sizes[i] >= PARTNER * sizes.max()]
     words = [names[kept[i]] for i in order[:PARTNERS]]

@@ -95,7 +95,6 @@ class Checker:
         return Finding(*place, *what, *numbers, related)  # type: ignore[arg-type]
 
     def wanted(self, file: str) -> set[str]:
-        """Return the codes that are reported in a file."""
         if file not in self._wanted:
             self._wanted[file] = self.codes - self._settings.ignored(file)
         return self._wanted[file]

@@ -72,7 +72,6 @@ class Rule(NamedTuple):
 
     @property
     def title(self) -> str:
-        """The first sentence of the meaning."""
         return re.split(r"(?<=\S)\. |\.$|: ", " ".join(self.meaning.split()), maxsplit=1)[0]
 
     @property
@@ -89,7 +88,6 @@ def codes() -> dict[str, Code]:
 
 @cache
 def rules() -> dict[str, Rule]:
-    """The rule of every code."""
     found = {}
     for chapter in re.split(r"^### ", PAGE.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]:
         heading, _, body = chapter.partition("\n\n")
@@ -118,7 +116,6 @@ def meant(words: Iterable[str]) -> set[str]:
 
 
 def close(word: str) -> str:
-    """Return the codes closest to a word, or the letters of the groups."""
     import difflib
 
     near = difflib.get_close_matches(word.upper(), codes(), 3)

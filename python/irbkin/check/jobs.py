@@ -39,12 +39,10 @@ class Job:
     """Tasks of the controller, as `rapid.check_program` takes them; empty if not known."""
 
     def is_given(self, file: str) -> bool:
-        """Whether a file may be corrected."""
         return self.given is None or file in self.given
 
 
 def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Settings) -> Job:
-    """Return the job of files and folders, without excluded files."""
     files: list[ModuleFile] = []
     wrong: list[FileFinding] = []
     for name in given:
@@ -161,7 +159,6 @@ def backup_of(names: Sequence[str]) -> str | None:
 
 
 def is_backup(name: str) -> bool:
-    """Whether a path is a backup, or leads into one in an archive."""
     if archive_of(Path(name)) is not None:
         return True
     if not os.path.isdir(name):

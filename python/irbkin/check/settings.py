@@ -26,22 +26,17 @@ SCHEMA = Path(__file__).with_name("irbkin.schema.json")
 
 
 class Settings(NamedTuple):
-    """Options of a file."""
-
     file: str = ""
     options: Mapping[str, Any] = {}
 
     def excludes(self, path: str) -> bool:
-        """Whether a file is excluded from checks."""
         return self._matches(path, self.options.get("exclude", ()))
 
     def ignored(self, path: str) -> set[str]:
-        """Return the ignored codes of a file."""
         ignores = self.options.get("per_file_ignores", {}).items()
         return {code for pattern, own in ignores if self._matches(path, [pattern]) for code in own}
 
     def _matches(self, name: str, patterns: Iterable[str]) -> bool:
-        """Whether a pattern matches a file, one of its folders, or the name of either."""
         if not patterns:
             return False
         from fnmatch import fnmatch
@@ -53,7 +48,6 @@ class Settings(NamedTuple):
 
 
 def settings_of(names: Sequence[str]) -> Settings:
-    """Read the options of some files: from their common folder or its nearest parent with any."""
     found = (_read(file, TABLES[os.path.basename(file)]) for file in option_files(names))
     return next(filter(None, found), Settings())
 
@@ -174,7 +168,6 @@ KEYS: dict[str, Callable[[Entry, str], Any]] = {
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON schema of `irbkin.toml`, with the arms, the codes and the formats."""
     found: dict[str, Any] = json.loads(SCHEMA.read_text(encoding="utf-8"))
     keys = found["properties"]["check"]["properties"]
     keys["robot"]["anyOf"][0]["enum"] = [*catalog()]

@@ -90,7 +90,6 @@ def tool_findings(
 
 
 def _faults(of: Any, arm: str, payload: float) -> Iterator[Any]:
-    """Yield what is wrong with a load or the load of a tool: a code, words, a value, its bound."""
     load = getattr(of, "tload", of)
     mass, inertia, cog = load.mass_kg, max(load.inertia), math.hypot(*load.cog_mm)
     others, length = sum(load.inertia) - inertia, math.hypot(*load.aom)

@@ -84,7 +84,6 @@ def parser_of(verb: str, own: Parser | None = None) -> Parser:
 
 
 def root(fill: Callable[[str, Parser], object]) -> Parser:
-    """The parser of all verbs, each filled."""
     from irbkin.cli.arguments import Parser
 
     parser = Parser(prog="irbkin", description=ABOUT, usage="irbkin VERB ...")

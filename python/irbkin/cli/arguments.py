@@ -53,7 +53,6 @@ class Parser(argparse.ArgumentParser):
         self.needs_robot = False
 
     def print_help(self, file: Any = None) -> None:
-        """Print the help, with examples as they are typed."""
         from rich_argparse import RichHelpFormatter
 
         RichHelpFormatter.text_markup = RichHelpFormatter.help_markup = False
@@ -64,7 +63,6 @@ class Parser(argparse.ArgumentParser):
         print(self.examples, end="")
 
     def error(self, message: str) -> NoReturn:
-        """End the command."""
         if message.endswith("required: ROBOT"):
             message = f"no robot: {GIVE_ROBOT}"
         elif unknown := re.match(r"unrecognized arguments: (-\S+)", message):
@@ -116,7 +114,6 @@ class Parser(argparse.ArgumentParser):
         return [settings.options["robot"], *words]
 
     def add_robot(self) -> None:
-        """The arm, and what it carries."""
         self.needs_robot = True
         self.add("robot", metavar="ROBOT", help=ROBOT_HELP)
         words = "the same: -r ROBOT or IRBKIN_ROBOT=ROBOT takes the place of the first argument"
@@ -134,25 +131,20 @@ class Parser(argparse.ArgumentParser):
         self.add_frame("base", "base in the world", "pose")
 
     def add_frame(self, name: str, frame: str, kind: str) -> None:
-        """A frame of numbers or RAPID."""
         words = f"{frame}: x y z [mm], then w x y z or rz ry rx [deg] if turned; or a {kind}"
         self.add(f"--{name}", nargs="+", type=number_or_data, metavar="N", help=words)
 
     def add_tools(self) -> None:
-        """The tools of a program, which `read_tools` reads."""
         words = "TCP of a tool that nothing declares: as of ik; without NAME= of all others"
         self.add("--tool", nargs="+", action="append", metavar=("[NAME=]X", "Y Z"), help=words)
 
     def add_wobj(self) -> None:
-        """The work object of poses."""
         self.add_frame("wobj", "frame of the poses in the world", "wobjdata")
 
     def add_joints(self, name: str, words: str) -> None:
-        """Joint angles, or a jointtarget."""
         self.add(f"--{name}", nargs="+", type=number_or_data, metavar="Q", help=words)
 
     def add_cell(self) -> None:
-        """The cell around the arm."""
         self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml, .urdf")
 
     def add_formats(self, array: str, *others: str) -> None:
@@ -182,7 +174,6 @@ def _is_meant(word: str) -> bool:
 
 
 def read_robot(arguments: argparse.Namespace) -> Robot:
-    """The arm of the arguments, with its tool and base."""
     name = (arguments.robot or "").strip()
     if not name:
         raise CommandError(f"no robot: {GIVE_ROBOT}")
@@ -197,7 +188,6 @@ def read_robot(arguments: argparse.Namespace) -> Robot:
 
 
 def read_wobj(arguments: argparse.Namespace) -> Floats:
-    """The work object in the world, shape (4, 4)."""
     return frame(arguments.wobj or [0, 0, 0], "--wobj")
 
 

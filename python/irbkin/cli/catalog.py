@@ -55,7 +55,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _bare(name: str) -> str:
-    """A name without what does not matter."""
     return re.sub(r"[\s_/-]", "", name).lower()
 
 

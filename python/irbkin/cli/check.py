@@ -71,7 +71,6 @@ def add_arguments(parser: Parser) -> None:
 
 
 def add_arm(parser: Parser) -> None:
-    """The arm, and the codes that are wanted."""
     add = parser.add
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("-r", "--robot", metavar="ROBOT", default=robot, help=ROBOT_HELP)
@@ -129,7 +128,6 @@ def _take_robot(arguments: argparse.Namespace) -> None:
 
 
 def _check(arguments: argparse.Namespace) -> int:
-    """Check the files once."""
     names: list[str] = arguments.files
     settings = settings_of([name for name in names if name != STDIN])
     options = {**settings.options, **given(arguments)}
@@ -220,7 +218,6 @@ def given(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def _write(report: Report, form: str, arguments: argparse.Namespace, texts: list[Text]) -> None:
-    """Write corrected files, and the report to stdout or, but for two sentences, to a file."""
     output, is_quiet = arguments.output_file, arguments.quiet
     is_shown = arguments.color == "always" if output else is_colored(arguments.color, sys.stdout)
     text = rendered(replace(report, is_quiet=is_quiet, is_colored=is_shown), form)
@@ -235,7 +232,6 @@ def _write(report: Report, form: str, arguments: argparse.Namespace, texts: list
 
 
 def _print(text: str) -> None:
-    """Print text, with escapes for characters that stdout cannot write."""
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     sys.stdout.write(text)

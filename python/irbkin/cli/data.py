@@ -73,7 +73,6 @@ def split(words: Sequence[str]) -> Iterator[str]:
 
 
 def frame_of(words: Sequence[Any], name: str) -> list[float]:
-    """The frame of a tooldata, wobjdata or pose: x y z [mm], w x y z."""
     import numpy as np
 
     from irbkin import to_xyz_wxyz
@@ -94,7 +93,6 @@ def frame_of(words: Sequence[Any], name: str) -> list[float]:
 
 
 def angles_of(words: Sequence[Any], count: int) -> list[float]:
-    """Joint angles [deg], of a jointtarget with its first external axes, up to a count."""
     if not any(isinstance(it, str) for it in words):
         return [*words]
     ((_, target), *_) = data_of(" ".join(map(str, words)), "jointtarget")

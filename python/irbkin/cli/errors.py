@@ -51,7 +51,6 @@ class CommandError(Exception):
 
 
 def complain(message: object) -> None:
-    """Print a line on stderr."""
     if isinstance(message, OSError) and message.filename:
         message = f"{message.filename}: {message.strerror}"
     line = " ".join(str(message).split())

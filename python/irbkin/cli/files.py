@@ -35,5 +35,4 @@ def put_text(name: str | None, text: str) -> None:
 
 
 def shown(name: str) -> str:
-    """How messages name an input."""
     return "stdin" if name == STDIN else _files.shown(name)

@@ -78,7 +78,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _check(arguments: argparse.Namespace, robot: Robot) -> None:
-    """Refuse options that do not go with each other, or with the arm."""
     seed, own, given, arm_angle = (
         getattr(arguments, name) is not None for name in ("seed", "confdata", "given", "arm_angle")
     )
@@ -126,8 +125,6 @@ def _poses(arguments: argparse.Namespace) -> tuple[Iterator[Part], str]:
 
 
 class _All:
-    """All solutions of poses, a row each."""
-
     def __init__(self, arguments: argparse.Namespace, robot: Robot, *, is_one: bool) -> None:
         self.robot, self.is_one = robot, is_one
         self.q7 = None if arguments.q7 is None else math.radians(arguments.q7)
@@ -139,13 +136,11 @@ class _All:
         self.said: list[tuple[str, Any, str]] = []
 
     def reason(self, pose: Floats) -> str:
-        """Why a pose has no solution inside the limits."""
         if self.robot.dof == 6:
             return self.robot.check_pose(pose).reason
         return self.robot.ik(pose, self.q7).explain()
 
     def solve(self, part: Part, poses: Floats, before: int) -> tuple[Columns, Floats, Any]:
-        """The columns of poses, their joints, and which have some inside the limits."""
         robot, found = self.robot, self.robot.ik_batch(poses, self.q7)
         is_wanted = (found.status & self.wanted) != 0
         index, slot = is_wanted.nonzero()
@@ -196,8 +191,6 @@ class _All:
 
 
 class _One(_All):
-    """One solution of each pose: the nearest to a seed, or by confdata."""
-
     def __init__(self, arguments: argparse.Namespace, robot: Robot, *, is_one: bool) -> None:
         self.robot, self.said, self.uncertain, self.is_one = robot, [], 0, is_one
         seed, own = joints(arguments.seed, "--seed", robot.dof), arguments.confdata
@@ -216,7 +209,6 @@ class _One(_All):
         return self.robot.check_pose(pose).reason
 
     def solve(self, part: Part, poses: Floats, before: int) -> tuple[Columns, Floats, Any]:
-        """The columns of poses, their joints, and which have some."""
         q = self.joints(poses)
         pose = {Column("pose", "6d"): np.arange(len(q)) + before}
         columns = {**pose, **word_columns(part.names), **posture_columns(self.robot, q)}

@@ -33,7 +33,6 @@ def positive(text: str) -> float:
 
 
 def angle(text: str) -> float:
-    """An angle of a joint [deg]."""
     value = number(text)
     if abs(value) > MOST_ANGLE:
         raise ArgumentTypeError(f"{value:g} deg {TOO_LARGE}")

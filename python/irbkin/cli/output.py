@@ -26,11 +26,9 @@ class Column(NamedTuple):
 
     @property
     def key(self) -> str:
-        """Its name with its unit, in CSV and JSON."""
         return "_".join(filter(None, (self.name, self.unit.replace("/", "_"))))
 
     def cell(self, value: Any) -> str:
-        """A value in a table."""
         if value is None or (isinstance(value, float) and math.isnan(value)):
             return "-"
         # Whole numbers with gaps are floats.
@@ -60,11 +58,9 @@ class Rows:
         self.count = 0
 
     def put(self, text: str) -> None:
-        """Write text."""
         self.file.write(text.encode("utf-8", "backslashreplace"))
 
     def write(self, values: Columns, array: Any = None) -> None:
-        """Some rows by their columns, the same in each call, and what an array has of them."""
         if not self.columns:
             self.columns = tuple(values)
             self._begin()
@@ -186,7 +182,6 @@ class Json(Rows):
 
 
 def _plain(value: Any) -> Any:
-    """A value that JSON has, with as many digits as in CSV."""
     if isinstance(value, float):
         return float(f"{value:.12g}") if math.isfinite(value) else None
     return value.item() if isinstance(value, np.generic) else value
@@ -198,7 +193,6 @@ class Npy(Rows):
     shape: tuple[int, ...] = ()
 
     def write(self, values: Columns, array: Any = None) -> None:
-        """Some rows of the array."""
         if not self.shape:
             self.shape = (0, *array.shape[1:])
             self._head()

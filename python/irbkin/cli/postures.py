@@ -28,13 +28,11 @@ def pose_columns(poses: Floats) -> Columns:
 
 
 def joint_columns(q: Floats) -> Columns:
-    """Joint angles, shape (k, n)."""
     values = _zeros(np.degrees(q)).T
     return {Column(f"q{number}", "7.2f", "deg"): own for number, own in enumerate(values, 1)}
 
 
 def word_columns(names: Mapping[str, Sequence[str]]) -> Columns:
-    """Columns of words of a file, as they are."""
     return {Column(name, "<12s"): own for name, own in names.items()}
 
 
@@ -76,7 +74,6 @@ def posture_columns(robot: Robot, q: Floats, *, with_joints: bool = True) -> Col
 
 
 def has_confdata(robot: Robot) -> bool:
-    """Whether the controller of a robot has configurations."""
     try:
         robot.configuration(np.zeros(robot.dof))
     except InvalidModelError:

@@ -24,7 +24,6 @@ class Progress(contextlib.ExitStack):
         self.bar: Bar | None = None
 
     def add(self, count: int, total: int | None = None) -> None:
-        """So many more are done, of a total if it is known."""
         self.done += count
         self.total = total or self.total
         if self.bar is None and time.monotonic() - self.began >= AFTER:

@@ -49,7 +49,6 @@ class Layout(NamedTuple):
     shape: tuple[int, ...]
 
     def words(self) -> str:
-        """The columns in words."""
         return " or ".join(", ".join(choice) for choice in self.choices)
 
     def placed(self, fields: Sequence[str]) -> dict[str, int]:
@@ -122,7 +121,6 @@ def _text(file: BinaryIO, name: str, layout: Layout) -> Iterator[Part]:
 
 
 def _numbers(rows: Sequence[Row], name: str, places: Sequence[int], width: int) -> Floats:
-    """The values of rows, all of one width if there is one; a CommandError has a wrong place."""
     form: Any = {"delimiter": ",", "comments": None, "ndmin": 2, "quotechar": '"'}
     with contextlib.suppress(ValueError):
         values = np.loadtxt([it for _, it in rows], usecols=None if width else places, **form)
@@ -166,7 +164,6 @@ def _quoted(text: str) -> str:
 
 
 def read_poses(words: Sequence[str]) -> Iterator[Part]:
-    """Poses in parts, of a file or of robtargets."""
     if is_data(words[0]):
         targets, names = _declared(words, 0, "robtarget", "pose")
         yield Part(np.array([it.matrix() for it in targets]), names, targets, len(targets))
@@ -179,7 +176,6 @@ def read_poses(words: Sequence[str]) -> Iterator[Part]:
 
 
 def read_joints(words: Sequence[str], dof: int) -> Iterator[Part]:
-    """Joint angles in parts, of a file or of jointtargets."""
     if is_data(words[0]):
         targets, names = _declared(words, dof - 6, "jointtarget")
         angles = [[*it.robax_deg, *it.extax][:dof] for it in targets]
@@ -207,7 +203,6 @@ def _one(words: Sequence[str]) -> str:
 
 
 def _as_poses(rows: Floats, name: str, before: int) -> Floats:
-    """Poses of rows in meters and radians."""
     xyz, turn = rows[:, :3], rows[:, 3:]
     if turn.shape[1] == 3:
         for row in np.flatnonzero((np.abs(turn) > MOST_EULER).any(axis=1))[:1]:
@@ -223,7 +218,6 @@ def _as_poses(rows: Floats, name: str, before: int) -> Floats:
 
 
 def _parts(name: str, layout: Layout) -> Iterator[Part]:
-    """Rows in parts: arrays of the layout's shape, or of text."""
     count = 0
     with opened(name) as file:
         start = file.peek(len(MAGIC))[: len(MAGIC)]  # type: ignore[attr-defined]

@@ -34,7 +34,6 @@ def before(source: str, at: int) -> str | None:
 
 
 def occurrences(source: str, name: str) -> Iterator[int]:
-    """Yield the offsets of a name in a text."""
     for match in re.finditer(rf"\b{re.escape(name)}\b", source, re.IGNORECASE):
         if before(source, match.start()) is not None:
             yield match.start()
@@ -44,7 +43,6 @@ Span = tuple[int, int, str]
 
 
 def blocks(source: str) -> list[Span]:
-    """Return the begin, the end and the first word of each block of a text, sorted."""
     found, open_ = list[Span](), list[tuple[int, str]]()
     for match in EDGES.finditer(source):
         word = match[0].upper()
@@ -91,7 +89,6 @@ class Call:
     _is_required: bool = False
 
     def take(self, part: str, before: str) -> None:
-        """Go on with a part of the text."""
         if part == ",":
             self.argument += self._is_required
             self.option, self._is_required = None, False
@@ -109,7 +106,6 @@ BEGINNING, NOTHING, TYPE = ([Call(f"!{name}")] for name in ("beginning", "nothin
 
 
 def calls_at(source: str, offset: int) -> list[Call]:
-    """Return the calls around an offset, the innermost last, without the word that ends there."""
     begin = offset
     for _ in range(MOST_ROWS):
         begin = max(source.rfind("\n", 0, begin), 0)
@@ -147,7 +143,6 @@ def _is_over(parts: list[str], gap: str) -> bool:
 
 
 def _calls(parts: list[str]) -> list[Call]:
-    """The calls that the parts of a statement lead into."""
     word = parts[0].upper()
     if word in NAMELESS or parts[-1] == ".":
         return NOTHING

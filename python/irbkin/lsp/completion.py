@@ -67,7 +67,6 @@ def completions(at: Place, trigger: str | None) -> list[types.CompletionItem]:
 
 
 def signature(at: Place) -> types.SignatureHelp | None:
-    """Return the parameters of what is called at a place, and which one is there."""
     _, _, text, offset = at
     seen = _seen(at)
     for call in reversed(calls_at(text.source, offset)):
@@ -95,7 +94,6 @@ def _seen(at: Place) -> Mapping[str, Declared]:
 def _parameters(
     call: Call, seen: Mapping[str, Declared]
 ) -> tuple[list[Parameter] | None, Parameter | None]:
-    """The parameters of what is called, if it is known, and the one that the place is at."""
     of = seen.get(call.name.lower())
     if of is None or of.kind not in ROUTINES:
         return None, None
@@ -108,12 +106,10 @@ def _parameters(
 
 
 def _depth(it: Declared, module: int) -> int:
-    """How far something declared is from the statements of a module."""
     return 0 if it.routine else 1 if it.module == module else 3 if it.module == NOWHERE else 2
 
 
 def _item(it: Declared, module: int, fault: str | None) -> types.CompletionItem:
-    """Something declared, in the order of nearness; what the arm does not reach is the last."""
     rank = 5 if fault else 4 if it.kind in ("FUNC", "keyword") else _depth(it, module)
     order = re.sub(r"\d+", lambda number: number[0].zfill(6), it.name.lower())
     kind = KINDS.get(it.kind, types.CompletionItemKind.Variable)

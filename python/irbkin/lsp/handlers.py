@@ -24,8 +24,6 @@ ENTRY = "main"
 
 
 def register(server: Server) -> None:
-    """Register all handlers."""
-
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
         folders = [folder.uri for folder in params.workspace_folders or ()]

@@ -39,7 +39,6 @@ def hover(result: Result, module: int, offset: int) -> tuple[str, tuple[int, int
 
 
 def _span(text: Text, move: CheckedMove) -> tuple[int, int]:
-    """The offsets of a statement without its semicolon."""
     begin = text.at(move.line, move.column)
     return begin, text.statement_end(begin)
 

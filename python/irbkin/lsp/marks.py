@@ -47,7 +47,6 @@ def found_in(results: Iterable[Result], path: str) -> Iterator[tuple[Result, Fin
 
 
 def diagnostics(results: Iterable[Result], path: str) -> list[types.Diagnostic]:
-    """Return the findings in a file, without duplicates of several sessions."""
     marks: dict[tuple[int, int, str, str], types.Diagnostic] = {}
     for _, found, area in found_in(results, path):
         key = (found.line, found.column, found.code, found.message)
@@ -89,7 +88,6 @@ def actions(
 
 
 def _target(result: Result, found: Finding) -> str:
-    """The target of the move that a finding is about, as it is written."""
     moves = result.moves.get(result.modules[found.file], ())
     own = (it.target for it in moves if (it.line, it.column) == (found.line, found.column))
     return next(own, "a target")
@@ -106,14 +104,12 @@ def _edit(edits: Edits) -> types.WorkspaceEdit:
 
 
 def location(result: Result, declared: Declared) -> types.Location:
-    """Return the location of a declaration."""
     begin, end = declared.span(text := result.text(declared.module))
     path = result.job.program.files[declared.module].path
     return types.Location(uri_of(path), text.range(begin, end))
 
 
 def symbols(result: Result, module: int) -> list[types.DocumentSymbol]:
-    """Return the routines and data of a module, the data of routines in these."""
     text, outer = result.text(module), list[types.DocumentSymbol]()
     blocks = text.blocks
     routines: dict[str, list[types.DocumentSymbol]] = {}

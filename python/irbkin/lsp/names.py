@@ -50,8 +50,6 @@ DATA = {
 
 
 class Parameter(NamedTuple):
-    """A parameter of a routine."""
-
     name: str
     kind: str
     is_optional: bool
@@ -61,15 +59,12 @@ class Parameter(NamedTuple):
 
 
 def parameters(header: str) -> list[Parameter]:
-    """Return the parameters of the header of a routine."""
     found = HEADER.finditer(header, header.find("(") + 1 or len(header))
     return [Parameter(it[4], it[3].lower(), bool(it[1]), *it.span(2)) for it in found]
 
 
 @dataclass(frozen=True)
 class Declared:
-    """A declaration."""
-
     module: int
     name: str
     kind: str
@@ -93,11 +88,9 @@ class Declared:
 
     @property
     def is_constant(self) -> bool:
-        """Whether it is declared as CONST."""
         return "CONST" in self.words.upper().split()[:2]
 
     def span(self, text: Text) -> tuple[int, int]:
-        """Return the offsets of its name in the text of its module."""
         begin = text.at(self.line, self.column)
         if self.kind == PARAMETER:
             begin = max(begin, text.source.find("(", begin))
@@ -107,8 +100,6 @@ class Declared:
 
 
 class Names:
-    """The declarations of a program."""
-
     def __init__(self, program: Program, known: dict[int, tuple[Module, list[Declared]]]) -> None:
         self.program, self._known = program, known
         """The declarations of modules that are perhaps the same as before."""
@@ -148,7 +139,6 @@ class Names:
         return [[(it.line, it.name) for it in of.routines] for of in self.program.modules]
 
     def routine_at(self, module: int, line: int) -> str | None:
-        """Return the routine that a line of a module is in."""
         routines = self._routines[module]
         place = bisect(routines, line, key=lambda routine: routine[0])
         return routines[place - 1][1] if place else None
@@ -160,7 +150,6 @@ class Names:
         return ChainMap(inner, self.parameters(outer.get(name)), outer, self.shared)
 
     def find(self, module: int, routine: str | None, name: str) -> Declared | None:
-        """Return the declaration of a name that is used in a routine of a module."""
         return self.visible(module, routine).get(name.lower())
 
     def parameters(self, of: Declared | None) -> dict[str, Declared]:
@@ -172,7 +161,6 @@ class Names:
 
 
 def declarations(module: Module, index: int) -> list[Declared]:
-    """Return the declarations of a module, in the order of the text."""
     found = []
     for data in module.declarations:
         words = " ".join(filter(None, (data.scope, data.storage, data.data_type, data.name)))

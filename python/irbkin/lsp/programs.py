@@ -79,12 +79,10 @@ class Programs:
         return found or [Session(Job(None, UNREAD, path), [path], checker, [note])]
 
     def files_of_tasks(self, path: str) -> list[str]:
-        """Return a file of each task of the backup that has a file."""
         backup = self._backups.get(backup_above(Path(path)) or Path())
         return [str(it.modules[0].path) for it in backup.tasks if it.modules] if backup else []
 
     def task_names(self) -> set[str]:
-        """Return the names of the tasks of the backups in lower case, and that of one robot."""
         tasks = (task for backup in [*self._backups.values()] for task in backup.tasks)
         return {"t_rob1", *(task.name.lower() for task in tasks)}
 
@@ -100,7 +98,6 @@ def _no_arm(backup: Backup, task: Task) -> str:
 
 
 def _paths(path: str, settings: Settings) -> tuple[list[str], list[str]]:
-    """The files of the program of a file outside backups, and notes on them."""
     folder, name = os.path.split(path)
     if not os.path.isabs(path) or not path.lower().endswith(ENDINGS):
         return [path], []

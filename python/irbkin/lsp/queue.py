@@ -36,7 +36,6 @@ class Queue:
         self._worker: asyncio.Task[None] | None = None
 
     def sessions(self, path: str) -> Sequence[Session]:
-        """Return the sessions of a document that are found so far."""
         return self._of.get(path, ())
 
     def open(self, path: str, options: Mapping[str, Any]) -> None:
@@ -45,7 +44,6 @@ class Queue:
         self._wake()
 
     def change(self, path: str) -> None:
-        """Check the sessions of a document again."""
         self._stale.update(dict.fromkeys(self.sessions(path)))
         self._wake()
 

@@ -128,7 +128,6 @@ def _groups(entries: Sequence[_Entry]) -> list[list[int]]:
 
 
 def _names(source: str) -> frozenset[str]:
-    """All names in a text, in lower case."""
     lower = source.lower()
     parts = lower.translate(BLANKS).split() if lower.isascii() else NAME.findall(lower)
     # Digits in front of a name are no part of it.

@@ -37,7 +37,6 @@ class _Messages(LanguageServerProtocol):
     def lsp_text_document__did_change(
         self, params: types.DidChangeTextDocumentParams
     ) -> Generator[Any, Any, None]:
-        """Forward a change to its handler."""
         yield self.fm.features[types.TEXT_DOCUMENT_DID_CHANGE], (params,), None
 
 
@@ -67,18 +66,15 @@ class Server(LanguageServer):
         self._said: set[str] = set()
 
     def texts(self) -> dict[str, Text]:
-        """Return the texts of open documents by path."""
         return {path: text for path, (_, _, text) in self.documents.items() if text}
 
     def set_options(self, settings: object) -> None:
-        """Set the options, perhaps in a section `irbkin`; ignore a value that is no mapping."""
         own = settings.get(SOURCE, settings) if isinstance(settings, Mapping) else None
         if isinstance(own, Mapping) and own != self.options:
             self.options = dict(own)
             self.queue.reload(self.documents, self.options)
 
     def put(self, uri: str, version: int, text: Text) -> None:
-        """Set the text of a document."""
         path = path_of(uri)
         if len(text.source) > MOST_BYTES:
             size = f"{len(text.source) / 1e6:.1f} MB, more than {MOST_BYTES / 1e6:g} MB"
@@ -95,7 +91,6 @@ class Server(LanguageServer):
             self.queue.change(path)
 
     def publish(self, session: Session) -> None:
-        """Publish the findings in the open documents of a session."""
         for note in session.notes:
             self.say(note)
         for path in session.paths:
@@ -103,12 +98,10 @@ class Server(LanguageServer):
                 self.show(path, diagnostics(self.results(path), path))
 
     def show(self, path: str, marks: Sequence[types.Diagnostic]) -> None:
-        """Publish findings in a document."""
         uri, version, _ = self.documents[path]
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, marks, version))
 
     def results(self, path: str) -> list[Result]:
-        """Return the last results of all sessions of a document."""
         return [own.result for own in self.queue.sessions(path) if own.result is not None]
 
     async def at(self, params: Document, *, is_now: bool = False) -> list[Place]:
@@ -129,7 +122,6 @@ class Server(LanguageServer):
         return found
 
     def say(self, message: str) -> None:
-        """Show a message to the user, once."""
         if message not in self._said:
             self._said.add(message)
             self.window_show_message(
@@ -137,13 +129,11 @@ class Server(LanguageServer):
             )
 
     def fail(self, error: BaseException) -> None:
-        """Log an error; the server continues."""
         lines = "".join(traceback.format_exception(error))
         self.window_log_message(types.LogMessageParams(types.MessageType.Error, lines))
         self.say(f"internal error, which the log has: {error!r}")
 
     def report_server_error(self, error: Exception, source: object) -> None:
-        """Log an error of a handler."""
         if not isinstance(error, Refusal):
             self.fail(error)
 
@@ -171,6 +161,5 @@ class Server(LanguageServer):
 
 
 def path_of(uri: str) -> str:
-    """Return the path of a document; its URI if it is no file."""
     path = to_fs_path(uri) if uri.startswith("file:") else None
     return path or uri

@@ -32,17 +32,14 @@ class Result:
 
     @cached_property
     def modules(self) -> dict[str, int]:
-        """The index of the module of each file."""
         return {file.path: index for index, file in enumerate(self.job.program.files)}
 
     def text(self, module: int) -> Text:
-        """Return the text of a module."""
         if module not in self._texts:
             self._texts[module] = Text(self.job.program.modules[module].source)
         return self._texts[module]
 
     def declared(self, module: int, offset: int) -> Declared | None:
-        """Return the declaration of the name at an offset in a module."""
         text = self.text(module)
         begin, end = text.word(offset)
         ahead = before(text.source, begin) if begin < end else None
@@ -62,7 +59,6 @@ class Result:
         return self.names.find(module, routine, name)
 
     def references(self, declared: Declared) -> Iterator[tuple[int, int]]:
-        """Yield the modules and offsets at which something declared is named."""
         # Calls in other modules name the parameters of a routine.
         is_far = declared.kind == PARAMETER
         for module in range(len(self.job.program.modules)) if is_far else self.scope(declared):

@@ -24,7 +24,6 @@ class Text:
 
     @cached_property
     def _starts(self) -> list[int]:
-        """The offset of each line."""
         if "\r" not in self.source:
             return self._rows
         return [0, *(match.end() for match in END_OF_LINE.finditer(self.source))]
@@ -40,11 +39,9 @@ class Text:
 
     @cached_property
     def blocks(self) -> list[Span]:
-        """Its blocks, as `code.blocks` has them."""
         return blocks(self.source)
 
     def position(self, offset: int) -> types.Position:
-        """Return the position of an offset."""
         line = bisect(self._starts, offset) - 1
         units = self.source[self._starts[line] : offset].encode("utf-16-le")
         return types.Position(line, len(units) // 2)
@@ -86,24 +83,20 @@ class Text:
         return len(self.source) if end < 0 else end
 
     def range(self, begin: int, end: int) -> types.Range:
-        """Return the range between two offsets."""
         return types.Range(self.position(begin), self.position(end))
 
     def range_of_bytes(self, begin: int, end: int) -> types.Range:
-        """Return the range between two bytes of the text in UTF-8."""
         if not self.source.isascii():
             begin, end = (len(self._bytes[:byte].decode(errors="ignore")) for byte in (begin, end))
         return self.range(begin, end)
 
     def changed(self, change: types.TextDocumentContentChangeEvent) -> Text:
-        """Return the text after a change."""
         if isinstance(change, types.TextDocumentContentChangeWholeDocument):
             return Text(change.text)
         begin, end = self.offset(change.range.start), self.offset(change.range.end)
         return Text(self.source[:begin] + change.text + self.source[max(begin, end) :])
 
     def word(self, offset: int) -> tuple[int, int]:
-        """Return the begin and the end of the name at an offset; equal if there is none."""
         line, column = self.place(offset)
         for match in NAME.finditer(self.row(line)):
             if match.start() < column <= match.end() + 1:

@@ -22,8 +22,6 @@ UNLIMITED = 1e9
 
 
 def rows(values: npt.ArrayLike) -> Any:
-    """Return an array as nested tuples."""
-
     def tupled(it: Any) -> Any:
         return tuple(map(tupled, it)) if isinstance(it, list) else it
 
@@ -120,7 +118,6 @@ def link_frames(arm: Arm, q: npt.ArrayLike) -> Floats:
 
 
 def solids(arm: Arm) -> list[LinkShape | LinkHull]:
-    """Return what an arm is drawn of: the hulls of links that have some, else their capsules."""
     having = {it.link for it in arm.hulls}
     bare = [
         LinkShape(it.link, it.points[0], it.points[-1], it.radius)
@@ -154,7 +151,6 @@ def face_normals(points: Floats, faces: npt.NDArray[np.int_]) -> Floats:
 
 
 def start(arm: Arm) -> Sequence[float]:
-    """Return the joint angles at which an arm is drawn first [rad]."""
     shown = [it.q for it in arm.postures if not it.is_ghost]
     if shown:
         return shown[0]

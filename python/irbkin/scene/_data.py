@@ -211,7 +211,6 @@ class Scene(_Part):
 
     @property
     def duration(self) -> float:
-        """The time at which the last motion ends [s]; 0 without one."""
         ends = (arm.motion.t[-1] for arm in self.arms if arm.motion and arm.motion.t)
         return max(ends, default=0.0)
 

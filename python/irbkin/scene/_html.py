@@ -21,7 +21,6 @@ def of_robot(robot: Robot) -> str:
 
 
 def of_solutions(solutions: Solutions, robot: Robot) -> str:
-    """Return a row for each solution of a robot."""
     head = ["slot", *(f"q{joint + 1} [deg]" for joint in range(robot.dof)), "limits"]
     rows = []
     for it in list(solutions)[:MOST_ROWS]:

@@ -130,7 +130,6 @@ def _of_routine(robot: Robot, made: RoutineMotion) -> Scene:
 
 
 def _mark(made: RoutineMotion, poses: Floats, finding: Finding) -> Mark:
-    """A finding at the end of its move, or where the motion is if the move is left out."""
     before = np.flatnonzero(np.asarray(made.move_index) <= finding.move_index)
     sample = int(before[-1]) if len(before) else 0
     text = f"{finding.code} {finding.message}"
@@ -170,7 +169,6 @@ def _of_calibration(thing: Calibrated, robot: Robot | None, q: npt.ArrayLike | N
 
 
 def _frames(thing: Calibrated, at: Floats | None) -> list[Frame]:
-    """The frames that were found; those on the arm are at its first posture."""
     found: list[tuple[str, Floats | None]] = []
     if isinstance(thing, Calibration):
         found = [("base", thing.robot.base), ("tool", at)]
@@ -180,7 +178,6 @@ def _frames(thing: Calibrated, at: Floats | None) -> list[Frame]:
 
 
 def _residuals(measured: Floats, fitted: Floats) -> Scene:
-    """Points, colored by how far off they are, and a vector from each to the fitted one."""
     off = fitted - measured
     error = np.linalg.norm(off, axis=1)
     worst = int(error.argmax())

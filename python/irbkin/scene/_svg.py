@@ -85,7 +85,6 @@ def _stadiums(it: LinkShape, frame: Floats) -> Filled:
 
 
 def _faces(it: LinkHull, frame: Floats) -> Filled:
-    """The faces of a hull that are seen, those of one tone together."""
     points, faces = outward(it) @ frame[:3, :3].T + frame[:3, 3], np.array(it.faces)
     normals, paper = face_normals(points, faces), on_paper(points)
     tones = np.round(TONES * (0.6 * normals @ LIGHT - 0.3)) / TONES
@@ -96,7 +95,6 @@ def _faces(it: LinkHull, frame: Floats) -> Filled:
 
 
 def _outlines(faces: list[list[int]]) -> list[list[int]]:
-    """The edges around triangles, where no other of them is: closed loops of points."""
     edges = {(face[i - 1], face[i]) for face in faces for i in range(3)}
     following: dict[int, list[int]] = {}
     for one, other in sorted(edges):

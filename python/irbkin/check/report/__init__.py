@@ -45,7 +45,6 @@ class SourceText:
 
     @cached_property
     def _starts(self) -> list[int]:
-        """The first byte of each line."""
         return list(accumulate((len(row) + 1 for row in self._rows[:-1]), initial=0))
 
     def line(self, number: int) -> str:
@@ -132,16 +131,13 @@ class Report:
     is_colored: bool = False
 
     def text_of(self, file: str) -> SourceText:
-        """The text of a file, empty if unknown."""
         return self.texts.get(file) or SourceText("")
 
     def place(self, found: Finding) -> tuple[str, int, int]:
-        """The line of a finding, and its columns as in `span`."""
         line = self.text_of(found.file).line(found.line)
         return line, *span(found, line)
 
     def corrected(self, found: Finding) -> dict[int, str]:
-        """Lines of its file, by their numbers, with the edits of a finding."""
         edits = [edit[1:] for edit in found.edits if edit[0] == found.file]
         return self.text_of(found.file).corrected(edits)
 
@@ -235,7 +231,6 @@ def _shown(found: Finding) -> Finding:
 
 
 def rendered(report: Report, form: str) -> str:
-    """The text of a report in a format."""
     module = importlib.import_module(f"irbkin.check.report.{form.replace('concise', 'text')}")
     text: str = module.concise(report) if form == "concise" else module.render(report)
     return text

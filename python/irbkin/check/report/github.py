@@ -6,7 +6,6 @@ from irbkin.check.report.text import heading
 
 
 def render(report: Report) -> str:
-    """Return one command for each finding, and one that says which moves were checked."""
     lines = []
     for found in report.findings:
         _, begin, end = report.place(found)
@@ -27,7 +26,6 @@ def render(report: Report) -> str:
 
 
 def _escaped(value: object, beside: str) -> str:
-    """A value without the characters that end a command, a property or a value."""
     text = str(value)
     for character in f"%\r\n{beside}":
         text = text.replace(character, f"%{ord(character):02X}")

@@ -22,7 +22,6 @@ MOVE = ("module", "line", "column", "routine", "target", "unchecked")
 
 
 def render(report: Report) -> str:
-    """Return the page of a report on one program."""
     ((job, checked),) = report.programs
     assert job.robot is not None
     own = of(job.robot, title=job.title)

@@ -7,7 +7,6 @@ from irbkin.check.report import Report
 
 
 def render(report: Report) -> str:
-    """Return the object."""
     records: list[dict[str, Any]] = []
     for found in report.findings:
         position = report.text_of(found.file).position

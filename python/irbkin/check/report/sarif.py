@@ -17,7 +17,6 @@ REGION = ("startLine", "startColumn", "endLine", "endColumn")
 
 
 def render(report: Report) -> str:
-    """Return the log."""
     driver = {"name": "irbkin", "version": __version__, "rules": [_rule(code) for code in rules()]}
     run = {
         "tool": {"driver": driver},

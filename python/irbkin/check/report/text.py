@@ -35,7 +35,6 @@ KINDS = {
 
 
 def styled(text: str, style: str, is_colored: bool) -> str:
-    """A text for a terminal, in a style of rich or of a severity."""
     if not (is_colored and text):
         return text
     from rich.style import Style
@@ -44,12 +43,10 @@ def styled(text: str, style: str, is_colored: bool) -> str:
 
 
 def render(report: Report) -> str:
-    """Each finding with its source line."""
     return _whole(report, [f"{_block(found, report)}\n" for found in report.findings])
 
 
 def concise(report: Report) -> str:
-    """Each finding in one line."""
     return _whole(report, [heading(found, report.is_colored) for found in report.findings])
 
 
@@ -85,7 +82,6 @@ def _routines(report: Report) -> Iterator[str]:
 
 
 def heading(found: Finding, is_colored: bool, show: Callable[[str], str] = visible) -> str:
-    """A finding in one line, as linters print it; names and messages as a function shows them."""
     place = show(f"{found.file}:{found.line}:{found.column}")
     mark = f"[{styled('*', 'cyan', is_colored)}] " if found.edits else ""
     code = styled(found.code, found.severity, is_colored)
@@ -136,7 +132,6 @@ def routines(report: Report) -> dict[str, list[tuple[str, ...]]]:
 
 
 def unused(report: Report) -> str:
-    """A sentence on unused names; empty without any."""
     kinds = Counter[str]()
     for job, checked in report.programs:
         found = (own for own in checked.findings if own.code == UNUSED)

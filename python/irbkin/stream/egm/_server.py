@@ -195,7 +195,6 @@ class Server:
         return session.statistics
 
     def close(self) -> None:
-        """Close the socket."""
         self._socket.close()
 
     def __enter__(self) -> Server:

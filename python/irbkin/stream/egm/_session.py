@@ -262,7 +262,6 @@ class Session:
         return False
 
     def _is_late(self, tm: int, ahead: int, now: float) -> bool:
-        """Whether a datagram with a new number took too long."""
         step, wanted = _signed(tm - self._tm) / 1e3, ahead * self.cycle
         self._newest, self._tm = (self._newest + ahead) % WORD, tm
         # The least delay is the clocks' difference, which drifts.
@@ -367,7 +366,6 @@ class Session:
                 )
 
     def _check_following(self, q: Floats) -> None:
-        """Brake if the robot does not follow."""
         default = TOLERANCE + FOLLOWING[self.mode] * self._fastest
         if apart := self._apart(q, default if self._bound is None else self._bound):
             words = f"{apart} (max_following_error): the guard has braked; is the robot held, or "
@@ -417,7 +415,6 @@ def _signed(difference: int) -> int:
 
 
 def _head(message: EgmRobot) -> tuple[int, int]:
-    """Sequence number and time of a controller's message."""
     header = message.header or EgmHeader()
     if header.seqno is None or header.tm is None or header.mtype != MessageType.DATA:
         raise StreamError(f"header is {header}: it must have seqno, tm and mtype 2 (data)")

@@ -80,7 +80,6 @@ class Controller:
         self._last, self._since, self._silent = -1, 0, 0
 
     def receive(self, data: bytes) -> None:
-        """Take a set point; an older one than the last is not taken."""
         try:
             sensor = decode(data, EgmSensor)
             seqno = (sensor.header or EgmHeader()).seqno or 0
@@ -164,7 +163,6 @@ class Link:
         self._way: list[tuple[int, bytes]] = []
 
     def put(self, data: bytes, tick: int, t: float) -> None:
-        """Send a datagram in a cycle, at a time [s]."""
         lost, twice, behind = (self._random.random() < rate for rate in self._rates)
         if lost or (self._cut and self._cut[0] <= t < self._cut[1]):
             return
