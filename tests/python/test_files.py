@@ -46,7 +46,7 @@ WRITERS = {
     "poses.csv": by_command("fk", NAME, 10, 20, 10, 0, 30, 0),
     "moves.csv": by_command("rapid", NAME, "-"),
     "study.csv": by_command("arms", EXAMPLE, "--arm", NAME),
-    "picture.svg": by_command("plot", NAME),
+    "picture.svg": by_command("view", NAME),
     "arm.urdf": by_command("urdf", NAME),
     "arm.json": by_command("view", NAME),
     "report.txt": by_command("check", "--robot", NAME, PACKAGE.parents[1] / "examples"),
@@ -187,7 +187,6 @@ def test_what_libraries_write_goes_through_it():
         # Files of `replaced`, or in memory.
         ("plot.py", "savefig", "file"),
         # A scene, which is a writer above.
-        ("cli/plot.py", "save", "output"),
         ("cli/view.py", "save", "output"),
     }
 

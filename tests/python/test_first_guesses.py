@@ -247,15 +247,6 @@ def test_a_program_that_is_not_played_names_the_routines_that_are(tmp_path):
         assert run(verb[0], NAME, "a.mod", "--routine", "Home", *verb[1:]).returncode == 0
 
 
-def test_an_arm_is_drawn_as_in_the_view(tmp_path):
-    for words in ([], ["--joints", JOINTS]):
-        for verb in ("plot", "view"):
-            assert run(verb, NAME, *words, "-o", tmp_path / f"{verb}.svg").returncode == 0
-        assert (tmp_path / "plot.svg").read_bytes() == (tmp_path / "view.svg").read_bytes()
-    for words in ([], ["-o", "a.png"]):
-        assert "it must be a FILE that ends in .svg" in refused("plot", NAME, *words)
-
-
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_has_verbs_and_options(shell):
     text = run("completion", shell).stdout.decode()

@@ -27,7 +27,6 @@ VERBS = {
     "diff": "find what differs between two backups: data, moves, targets",
     "port": "solve the confdata of a program anew for another arm",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
-    "plot": "write a picture of an arm",
     "view": "show an arm, a program or a scene in the browser",
     "egm-sim": "a model of an ABB controller that follows set points of EGM on this machine",
     "urdf": "write an arm as URDF",
