@@ -155,9 +155,6 @@ def test_seven_axes_take_q7():
     np.testing.assert_allclose(table["q7_deg"], 45.0)
     assert "give --q7" in refused("ik", "Panda", "--xyz", 400, 0, 500)
     assert "has 6" in refused("ik", NAME, "--xyz", 400, 0, 500, "--q7", 45)
-    assert "has 6" in refused("ik", NAME, "--xyz", 400, 0, 500, "--given", "3=1")
-    both = refused("ik", "Panda", "--xyz", 400, 0, 500, "--q7", 0, "--given", "3=1")
-    assert both == "irbkin: --given goes without --q7, --seed and --confdata\n"
 
 
 def test_a_confdata_has_an_arm_angle_for_a_yumi_and_for_no_other():
@@ -170,7 +167,6 @@ def test_a_confdata_has_an_arm_angle_for_a_yumi_and_for_no_other():
 @pytest.mark.parametrize(
     ("name", "x", "choice", "call"),
     [
-        ("Panda", 5000, ["--given", "3=11.5"], lambda robot, T: _given(robot, T, {3: 11.5})),
         ("IRB 14050", 5000, ["--q7", 11.5], lambda robot, T: _given(robot, T, {7: 11.5})),
         ("IRB 14050", 300, ["--q7", 11.5], lambda robot, T: _given(robot, T, {7: 11.5})),
         ("Panda", 5000, ["--seed", *[0] * 7], lambda robot, T: robot.ik_nearest(T, np.zeros(7))),
@@ -382,8 +378,6 @@ def test_a_filter_that_leaves_no_arm_says_so():
             ["ik", NAME, "--xyz", 850, 0, 0, "--confdata", 0, 0, 0, 0.5],
             "'0.5' is not a whole number",
         ),
-        (["ik", "Panda", "--xyz", 4, 0, 0, "--given", 3], "as 3=11.5"),
-        (["ik", "Panda", "--xyz", 4, 0, 0, "--given", f"{'9' * 20}=5"], "must be 1 to 7"),
         (["ik", "Panda", "--xyz", 4, 0, 0, "--q7", "1e9"], "--q7: 1e+09 deg is too large"),
         (["catalog", "--reach", "1e9"], "--reach is 1e+09 mm, it must be 0 to 100000 mm"),
         (["urdf", "Wxyz"], "irbkin catalog lists all; another arm is given by a .urdf file"),
@@ -530,6 +524,4 @@ def test_the_reason_is_in_the_json():
 def test_help_and_version_are_taken_as_other_commands_take_them():
     assert run("help", "ik").stdout == run("ik", "--help").stdout
     assert run("ik", "--version").stdout == run("--version").stdout
-    xyzw = ["0", "0.9659258", "0", "0.2588190"]
-    assert run("ik", NAME, *XYZ[:4], "--xyzw", *xyzw).stdout == run("ik", NAME, *XYZ).stdout
-    assert "give one of them" in refused("ik", NAME, *XYZ, "--xyzw", *xyzw)
+    assert "give one of them" in refused("ik", NAME, *XYZ, "--euler", 0, 0, 0)

@@ -110,7 +110,7 @@ def meant(words: Iterable[str]) -> set[str]:
         begin = code_of(word)
         these = [code for code in codes() if begin == "ALL" or code.startswith(begin)]
         if not these:
-            raise IrbkinError(f"unknown code {word!r}: did you mean {close(word)}? (--codes)")
+            raise IrbkinError(f"unknown code {word!r}: did you mean {close(word)}? (irbkin rule)")
         found.update(these)
     return found
 
@@ -139,6 +139,6 @@ def selected(
     if not wanted - ignored:
         raise IrbkinError(
             "--select and --ignore leave no code to check: select codes or their beginnings, or "
-            "ALL (--codes lists them)"
+            "ALL (irbkin rule lists them)"
         )
     return (wanted | {code for code, *_ in FILES}) - ignored

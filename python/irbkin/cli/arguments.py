@@ -207,12 +207,12 @@ def read_tools(given: Sequence[Sequence[str]]) -> dict[str | None, Floats]:
 
 def read_pose(arguments: argparse.Namespace) -> tuple[Floats, str]:
     """The pose of --xyz and an orientation, shape (4, 4), and its words."""
-    ways = {name: getattr(arguments, name) for name in ("wxyz", "xyzw", "euler")}
-    (name, turn), *others = [it for it in ways.items() if it[1] is not None] or [("", [])]
-    if others:
-        raise CommandError("--wxyz, --xyzw and --euler: give one of them")
-    turn = [*turn[3:], *turn[:3]] if name == "xyzw" else turn
-    return pose_of([*(arguments.xyz or (0, 0, 0)), *turn], f"--{name}")
+    if arguments.wxyz and arguments.euler:
+        raise CommandError("--wxyz and --euler: give one of them")
+    turn = arguments.wxyz or arguments.euler or []
+    return pose_of(
+        [*(arguments.xyz or (0, 0, 0)), *turn], "--euler" if arguments.euler else "--wxyz"
+    )
 
 
 def pose_of(numbers: Sequence[float], name: str) -> tuple[Floats, str]:

@@ -41,7 +41,6 @@ from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import STDIN, opened, replaced, shown
 from irbkin.cli.numbers import number
 from irbkin.cli.progress import Progress
-from irbkin.cli.rule import listed
 from irbkin.cli.watch import repeated
 from irbkin.errors import IrbkinError
 from irbkin.rapid import ModuleFile, program
@@ -66,7 +65,6 @@ def add_arguments(parser: Parser) -> None:
     add("-q", "--quiet", action="store_true", help="write no summary")
     add("--verdict", action="store_true", help="the routines at a glance: nearest limits, ...")
     add("--statistics", action="store_true", help="count the findings of each code in their place")
-    add("--codes", action="store_true", help="list the codes")
     add("--schema", action="store_true", help="write the JSON schema of irbkin.toml")
 
 
@@ -90,9 +88,6 @@ def add_arm(parser: Parser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    if arguments.codes:
-        print(listed(), end="")
-        return FINE
     if arguments.schema:
         print(json.dumps(schema(), indent=1))
         return FINE

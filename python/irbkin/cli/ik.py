@@ -6,7 +6,7 @@ Examples:
   irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --euler 0 150 0 --seed 0 0 0 0 0 0
   irbkin ik "IRB 2600-12/1.65" "CONST pose p10 := [[850,320,640],[0.2588,0,0.9659,0]];"
   irbkin ik "IRB 2600-12/1.65" poses.csv --within --csv > joints.csv
-  irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --given 3=11.5
+  irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --q7 45
   irbkin ik UR5e - --seed 0 -90 90 0 90 0 -o joints.npy < poses.npy
 """
 
@@ -21,7 +21,7 @@ from irbkin import Robot, Status, UnreachableError
 from irbkin.cli.arguments import Parser, joints, pose_of, read_pose, read_robot, read_wobj
 from irbkin.cli.data import is_data
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.numbers import angle, confdata, joint_and_angle, number
+from irbkin.cli.numbers import angle, confdata, number
 from irbkin.cli.output import Column, Columns, Floats, table
 from irbkin.cli.postures import has_confdata, posture_columns, word_columns
 from irbkin.cli.progress import Progress
@@ -35,12 +35,10 @@ def add_arguments(parser: Parser) -> None:
     words = "poses: a CSV or .npy file, - for stdin, or robtargets of RAPID"
     add("file", metavar="FILE", nargs="*", help=words)
     add("--xyz", nargs=3, type=number, metavar=(*"XYZ",), help="position of the tool [mm]")
-    add("--wxyz", nargs=4, type=number, metavar=(*"WXYZ",), help="its quaternion, w first")
-    add("--xyzw", nargs=4, type=number, metavar=(*"XYZW",), help="or w last")
+    add("--wxyz", nargs=4, type=number, metavar=(*"WXYZ",), help="its quaternion")
     turn = ("RZ", "RY", "RX")
     add("--euler", nargs=3, type=number, metavar=turn, help="or ZYX angles [deg]")
     add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
-    add("--given", type=joint_and_angle, metavar="J=Q", help="or of another one, as 3=11.5 [deg]")
     add("--within", action="store_true", help="only solutions inside the limits")
     parser.add_joints("seed", "only the nearest to these joints [deg]")
     add("--confdata", nargs=4, type=confdata, metavar="CF", help="only with cf1 cf4 cf6 cfx")
@@ -78,22 +76,20 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _check(arguments: argparse.Namespace, robot: Robot) -> None:
-    seed, own, given, arm_angle = (
-        getattr(arguments, name) is not None for name in ("seed", "confdata", "given", "arm_angle")
+    seed, own, arm_angle = (
+        getattr(arguments, name) is not None for name in ("seed", "confdata", "arm_angle")
     )
     if arm_angle and not own:
         raise CommandError("--arm-angle goes with --confdata")
-    if given and (seed or own or arguments.q7 is not None):
-        raise CommandError("--given goes without --q7, --seed and --confdata")
     if seed and own:
         raise CommandError("--seed and --confdata: give one of them")
     is_all = not (seed or own)
     if robot.dof != 7:
         q7 = is_all and arguments.q7 is not None
-        for name in ("given",) * given + ("arm-angle",) * arm_angle + ("q7",) * q7:
+        for name in ("arm-angle",) * arm_angle + ("q7",) * q7:
             words = f"--{name} is for arms of seven joints, {robot.name} has {robot.dof}"
             raise CommandError(words)
-    elif is_all and not given and arguments.q7 is None:
+    elif is_all and arguments.q7 is None:
         raise CommandError(f"{robot.name} has seven joints: give --q7, the angle of joint 7 [deg]")
     if own:
         # Refused for an arm without confdata.
@@ -128,9 +124,6 @@ class _All:
     def __init__(self, arguments: argparse.Namespace, robot: Robot, *, is_one: bool) -> None:
         self.robot, self.is_one = robot, is_one
         self.q7 = None if arguments.q7 is None else math.radians(arguments.q7)
-        if arguments.given is not None:
-            joint, degrees = arguments.given
-            self.robot = robot.locked({joint: np.radians(degrees)})
         self.wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
         self.uncertain = 0
         self.said: list[tuple[str, Any, str]] = []

@@ -2,7 +2,6 @@
 
 import math
 from argparse import ArgumentTypeError
-from collections.abc import Callable
 
 from irbkin.cli.data import is_data
 
@@ -39,28 +38,12 @@ def angle(text: str) -> float:
     return value
 
 
-def count(least: int, most: int, words: str = "must be {} to {}") -> Callable[[str], int]:
-    """Whole numbers between two bounds."""
-
-    def read(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            raise ArgumentTypeError(f"{text.strip()!r} is not a whole number") from None
-        if not least <= value <= most:
-            raise ArgumentTypeError(f"{value} {words.format(least, most)}")
-        return value
-
-    return read
-
-
-confdata = count(1 - 2**31, 2**31 - 1, "is not a number of a confdata")
-"""A whole number of 32 bits, as confdata has."""
-
-
-def joint_and_angle(text: str) -> tuple[int, float]:
-    """A joint of a seven-axis arm, from 1, and its angle [deg]."""
-    joint, equals, value = text.partition("=")
-    if not equals:
-        raise ArgumentTypeError(f"{text.strip()!r} must be a joint and its angle [deg], as 3=11.5")
-    return count(1, 7)(joint), angle(value)
+def confdata(text: str) -> int:
+    """A whole number of 32 bits, as confdata has."""
+    try:
+        value = int(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text.strip()!r} is not a whole number") from None
+    if not abs(value) < 2**31:
+        raise ArgumentTypeError(f"{value} is not a number of a confdata")
+    return value
