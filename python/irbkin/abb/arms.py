@@ -28,11 +28,9 @@ class Fitted:
     robot: Robot | None = None
     """The robot with the limits in force."""
     reason: str = ""
-    """The reason if no robot was found."""
     by_wording: bool = False
     """Whether the arm is known by the wording of backinfo.txt alone."""
     differences: tuple[LimitDifference, ...] = ()
-    """Joints whose limits differ from the catalog."""
     without_limits: tuple[int, ...] = ()
     """ABB's axes without usable limits in the configuration."""
 

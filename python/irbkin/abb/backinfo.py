@@ -31,9 +31,7 @@ class LoadedModule:
     source: str
     """File that it was loaded from, as "home:/system/posrec.sys"; often only its name or empty."""
     is_hidden: bool
-    """Whether it is a hidden module of an option."""
     line: int
-    """Line of backinfo.txt."""
 
 
 @dataclass(frozen=True)
@@ -46,9 +44,7 @@ class LoadedTask:
     program: str
     """Name of the program that is loaded, or empty."""
     modules: tuple[LoadedModule, ...]
-    """Its modules in the order of the file."""
     line: int
-    """Line of backinfo.txt."""
 
 
 @dataclass(frozen=True)
@@ -63,9 +59,7 @@ class BackInfo:
     arms: tuple[str, ...] = ()
     """Arms by their wording, of ROBOT_TYPE or PRODUCTS_ID: "IRB 4600-40/2.55 Type C"."""
     tasks: tuple[LoadedTask, ...] = ()
-    """Tasks in the order of the file."""
     findings: tuple[Finding, ...] = ()
-    """Lines that were not understood."""
 
     def task(self, number: int, position: int) -> LoadedTask | None:
         """Return the task of folder TASKn: by its number, else by its position in the list."""

@@ -18,11 +18,8 @@ class Machine:
     """The mechanical units of a controller."""
 
     robots: dict[str, RobotUnit]
-    """Robots by name, in the order of the file."""
     units: dict[str, ExternalUnit]
-    """Other units by name."""
     findings: list[Finding]
-    """Properties of them that the files leave open."""
 
     def all_units(self) -> list[RobotUnit | ExternalUnit]:
         """Return robots and other units."""

@@ -43,7 +43,6 @@ class Instance:
     """One instance of a type."""
 
     type: str
-    """Name of the type, as "ROBOT"."""
     line: int
     """Line on which it begins, from 1."""
     values: dict[str, str]
@@ -78,7 +77,6 @@ class CfgFile:
     """A configuration file."""
 
     file: str
-    """Path in the backup."""
     domain: str = ""
     """"MOC", "SYS"; empty without a header."""
     version: str = ""

@@ -47,7 +47,6 @@ class Moved(NamedTuple):
     fields: Mapping[str, str]
     """What it has beside its target, by name."""
     words: frozenset[str]
-    """The names in it, in lower case."""
     joints: tuple[float, ...] | None
     """At its target [deg], if it is checked and reached."""
     is_unmet: bool

@@ -10,16 +10,13 @@ from irbkin._core import check_codes
 from irbkin.errors import IrbkinError
 
 UNREAD = "E002"
-"""The code of an unreadable file."""
 BACKUP = "B001"
-"""The code of findings on the files of a backup."""
 FILES = (
     ("E001", "syntax", "error", True),
     (UNREAD, "unread-file", "error", True),
     ("E003", "doubled-module", "warning", True),
     (BACKUP, "backup", "warning", True),
 )
-"""Codes of files, found while they are read."""
 TOOLS = (
     ("T301", "unset-load", "error", True),
     ("T302", "doubtful-load", "warning", True),
@@ -27,7 +24,6 @@ TOOLS = (
     ("T304", "load-units", "error", True),
     ("T305", "load-note", "note", True),
 )
-"""Codes of the tools of moves."""
 NOT_CHECKED = ("U801", "U802", "U804")
 """Codes of moves that are not checked: errors with --strict."""
 UNUSED = "U807"
@@ -48,7 +44,6 @@ REASONS = {
 LEVELS = ("error", "warning", "note")
 """Severities, the worst first."""
 PAGE = Path(__file__).with_name("rules.md")
-"""The rules, a chapter each."""
 
 
 class Code(NamedTuple):

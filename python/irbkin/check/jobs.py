@@ -24,7 +24,6 @@ class Job:
     """None if unknown: only the text is checked."""
     program: Program
     title: str
-    """The task and the arm."""
     units: Sequence[UnitRow] = ()
     """The units that external axes belong to, as `rapid.check_program` takes them."""
     is_whole: bool | None = None

@@ -42,7 +42,6 @@ COLUMNS = (
     Column("singular"),
     Column("shift", "+d", "mm"),
 )
-"""The fields of `rapid.Candidate`."""
 
 
 def add_arguments(parser: Parser) -> None:

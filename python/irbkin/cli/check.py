@@ -46,7 +46,6 @@ from irbkin.errors import IrbkinError
 from irbkin.rapid import ModuleFile, program
 
 COUNTED = ("text", "concise", "json")
-"""Formats that --statistics has."""
 
 
 def add_arguments(parser: Parser) -> None:

@@ -28,7 +28,6 @@ OTHER_UNITS = {"mm": "m", "deg": "rad"}
 OWN = ("limits", "joint", "confdata")
 """Columns of words that the command writes itself."""
 Row = tuple[int, str]
-"""The number of a line, and its text."""
 MAGIC = b"\x93NUMPY"
 OTHERS = {
     b"PK": "is an archive (.npz, .zip); save one array by numpy.save",

@@ -21,7 +21,6 @@ KINDS = {
     "type": types.CompletionItemKind.Class,
 }
 MOST = 1_000
-"""Names that are offered at a time."""
 ANY = ("", "var", "anytype")
 """Types of parameters and places that take all."""
 OF_TARGETS = ("R101", "R102", "R106", "C201", "C203")

@@ -13,7 +13,6 @@ from irbkin.lsp.text import NAME, Text
 from irbkin.rapid import CheckedMove, Pose
 
 MOST_MOVES = 3
-"""Largest number of moves shown for a target."""
 
 
 def hover(result: Result, module: int, offset: int) -> tuple[str, tuple[int, int]]:

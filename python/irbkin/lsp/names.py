@@ -72,7 +72,6 @@ class Declared:
     words: str
     """The declaration without its value."""
     routine: str | None
-    """The routine that it is in."""
     is_local: bool
     line: int
     column: int

@@ -24,7 +24,6 @@ NO_ARM = (
 UNREAD = Program((), ())
 """A placeholder: the modules are read for each check."""
 MOST_FILES = 5_000
-"""Largest number of modules of a program."""
 
 
 class Programs:

@@ -28,7 +28,6 @@ class _Entry:
     alone: Module
     """Read without the other modules."""
     names: frozenset[str]
-    """All names in the text, in lower case."""
     shared: frozenset[str]
     """Those that it declares for other modules, and its own."""
     module: Module | None = None

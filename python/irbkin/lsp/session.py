@@ -23,11 +23,8 @@ class Result:
 
     job: Job
     moves: Mapping[int, Sequence[CheckedMove]]
-    """The moves of each module."""
     found_in: Mapping[str, Sequence[Finding]]
-    """The findings in each file."""
     names: Names
-    """Where its names are declared."""
     _texts: dict[int, Text] = field(default_factory=dict, repr=False)
 
     @cached_property
@@ -99,10 +96,8 @@ class Session:
     job: Job
     """The arm; the program is read for each check."""
     paths: Sequence[str]
-    """The files of its modules."""
     checker: Checker
     notes: Sequence[str] = ()
-    """Messages to the user on what is undetermined."""
     result: Result | None = None
     """The last result; None before the first check."""
     over: Callable[[], object] = lambda: None

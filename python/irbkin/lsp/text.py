@@ -12,7 +12,6 @@ from lsprotocol import types
 from irbkin.lsp.code import Span, blocks
 
 END_OF_LINE = re.compile(r"\r\n|\n|\r")
-"""Ends of lines, as the protocol defines them."""
 NAME = re.compile(r"[^\W\d]\w*")
 
 

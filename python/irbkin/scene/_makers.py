@@ -27,7 +27,6 @@ MOST_POINTS = 500
 AT_JOINTS = Robot, Cell, ReachMap, HandEye
 """What is drawn with an arm at joint angles that are given."""
 OWN_JOINTS = Solutions, Trajectory, Plan, FollowResult, RoutineMotion, Calibration
-"""What has joint angles."""
 EACH = 0.02
 """Time from one pose of a path without times to the next [s]."""
 

@@ -33,7 +33,6 @@ LARGE = 800
 """Width and height of a picture that is a file [px]."""
 GHOST = "#98a2b3"
 WAY = "#0072b2"
-"""Color of a path of the tool."""
 MOST_GHOSTS = 7
 
 
