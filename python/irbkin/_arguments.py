@@ -24,9 +24,6 @@ class Bar(Protocol):
 def reporter(progress: Report | Bar | None) -> Report:
     """Return the function that is called with how much is done and with the whole, of a callable or
     of a bar as of tqdm.
-
-    Raises:
-        TypeError: It is something else.
     """
     if progress is None:
         return lambda done, total: None

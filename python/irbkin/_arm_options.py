@@ -29,9 +29,6 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
             `snap` are, or one of `ROBOTSTUDIO`; `tool` and `base`, 3, 6 or 7 numbers; `limits`,
             rows of an axis and its bounds; `linkage_limits`.
         say: Takes a message on a .urdf file that another option would read better.
-
-    Raises:
-        IrbkinError: An option is missing or wrong.
     """
     import numpy as np
 

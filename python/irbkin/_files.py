@@ -21,11 +21,7 @@ def shown(name: str) -> str:
 
 
 def read(path: str | os.PathLike[str]) -> bytes:
-    """Return the content of a file.
-
-    Raises:
-        OSError: It cannot be read, or it is a pipe, a socket or a device: these may never end.
-    """
+    """The content of a file; an OSError of a pipe, a socket or a device, which may never end."""
     name = os.fspath(path)
     if not name.startswith(STREAMS) and not is_plain(os.stat(name)):
         raise OSError(errno.EINVAL, "is a pipe, a socket or a device", name)

@@ -180,11 +180,7 @@ class Folder:
 
 
 def open_backup(path: Path) -> Folder:
-    """Find the backup of a path: its folder, a folder or file in it, one above it, or an archive.
-
-    Raises:
-        IrbkinError: There is none, or there are several; the message lists them.
-    """
+    """Find the backup of a path: its folder, one in it or above it, a file in it, or an archive."""
     archive = archive_of(path)
     if archive is not None:
         unpacked = unpacked_of(archive)

@@ -47,14 +47,6 @@ class Measurements:
 
 
 def read(robot: Robot, q: npt.ArrayLike, measured: npt.ArrayLike) -> Measurements:
-    """The arguments of a calibration.
-
-    Raises:
-        InvalidJointsError: `q` has a wrong shape or is not finite.
-        InvalidPoseError: `measured` has a wrong shape, is not finite or holds a matrix that is no
-            pose.
-        CalibrationError: Their units do not fit the robot, or all joint vectors are one.
-    """
     joints = finite(q, "q", (None, robot.dof), InvalidJointsError)
     count = len(joints)
     found = np.asarray(measured)
@@ -74,11 +66,7 @@ def read(robot: Robot, q: npt.ArrayLike, measured: npt.ArrayLike) -> Measurement
 
 
 def read_poses(value: npt.ArrayLike, name: str) -> Floats:
-    """Measured poses, shape (m, 4, 4), their rotations made exact.
-
-    Raises:
-        InvalidPoseError: A wrong shape, or a matrix that is no pose.
-    """
+    """Measured poses, shape (m, 4, 4), their rotations made exact."""
     poses = finite(value, name, (None, 4, 4), InvalidPoseError)
     off = np.abs(poses[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1)
     for index in np.flatnonzero(off > LAST_ROW):

@@ -21,14 +21,8 @@ NOQA = re.compile(r"!\s*noqa\b(?:\s*:\s*([A-Z0-9, ]+))?", re.IGNORECASE)
 
 
 class Checker:
-    """Checks programs, by the options of a command or an editor.
-
-    Args:
-        options: As in irbkin.toml, but with underscores.
-        settings: The codes that are ignored in some files.
-
-    Raises:
-        IrbkinError: An option is wrong.
+    """Checks programs, by options as in irbkin.toml, but with underscores, and by the codes that
+    settings ignore in some files.
     """
 
     def __init__(self, options: Mapping[str, Any], settings: Settings) -> None:

@@ -56,11 +56,7 @@ def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Sett
 
 
 def only_job(robot: Robot, names: Sequence[str], settings: Settings) -> Job:
-    """Return the job of files, of this arm, or of the one task of a backup that moves, of its own.
-
-    Raises:
-        IrbkinError: Several tasks of the backup move.
-    """
+    """The job of files, of this arm, or of the one task of a backup that moves, of its own."""
     backup = backup_of(names)
     if backup is None:
         return job_of_files(robot, names, settings)
@@ -85,12 +81,8 @@ def job_of_task(backup: Backup, task: Task, program: Program) -> Job:
 
 
 def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], list[Finding]]:
-    """Return a job for each task of a backup with a known arm, and the findings on its files.
-
-    Args:
-        path: The backup.
-        names: Files or folders: tasks without a file in them are left out, and of the others no
-            other file is corrected.
+    """A job for each task of a backup with a known arm, and the findings on its files. Tasks with
+    no file in `names` are left out, and of the others no other file is corrected.
     """
     backup = load_backup(path)
     programs = [(task, backup.programs[task.name]) for task in backup.tasks if task.modules]
@@ -139,11 +131,7 @@ def _given(backup: Backup, names: Sequence[str]) -> set[str] | None:
 
 
 def backup_of(names: Sequence[str]) -> str | None:
-    """Return the one backup that all paths are, are in, or are above; None if one of them is not.
-
-    Raises:
-        IrbkinError: They are several.
-    """
+    """The one backup that all paths are, are in, or are above; None if one of them is not."""
     found: dict[str, str] = {}
     for name in names:
         roots = [name] if is_backup(name) else list(map(str, backups_of(Path(name).absolute())))

@@ -88,11 +88,7 @@ def _read(file: str, keys: Sequence[str]) -> Settings | None:
 
 
 def options_of(table: Mapping[str, Any], folder: str) -> dict[str, Any]:
-    """Read options from a table, with paths relative to a folder.
-
-    Raises:
-        InvalidModelError: A key or a value is wrong.
-    """
+    """Read options from a table, with paths relative to a folder."""
     from irbkin._cell.entries import Entry
 
     return _options(Entry("", folder, (), table))

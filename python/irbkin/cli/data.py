@@ -25,11 +25,7 @@ def is_data(text: str) -> bool:
 
 
 def data_of(text: str, *kinds: str) -> list[tuple[str, Any]]:
-    """Names and values of some kinds in RAPID; the name of a value alone is empty.
-
-    Raises:
-        CommandError: There are none: it says what the text looks like.
-    """
+    """Names and values of some kinds in RAPID; the name of a value alone is empty."""
     from irbkin import rapid
     from irbkin.errors import RapidError
 

@@ -24,12 +24,8 @@ NAMED = re.compile(rb"""["'>]\s*([^"'<>\0\n]+?)\s*["'<]""")
 
 
 def repeated(run: Callable[[], int], names: Sequence[str], output: str | None) -> NoReturn:
-    """Run something, and again whenever files or files in folders change, until Ctrl-C.
-
-    Args:
-        run: What ends the first time by an error ends the command; later errors are printed.
-        names: Files and folders, those that may come, too.
-        output: A file that it writes, which is not looked at.
+    """Run something, and again whenever files or files in folders change, until Ctrl-C. An error
+    ends the command the first time; later ones are printed.
     """
     seen = last = None
     while True:

@@ -47,13 +47,10 @@ class Reading:
         self._entries: dict[str, _Entry] = {}
 
     def program(self, texts: Mapping[str, Text]) -> Program:
-        """Return the program.
+        """The program, with texts of open documents in place of their files.
 
         A module is read again if its text has changed, or if it contains a name whose declaration,
         assignments or calls in other modules have changed.
-
-        Args:
-            texts: Texts of open documents by path, which replace their files.
         """
         names, findings = set[str](), list[FileFinding]()
         for path in self.paths:

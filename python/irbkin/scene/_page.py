@@ -23,13 +23,10 @@ SCRIPTS = (
 def page(
     scene: Scene | None = None, *, served: bool = False, program: dict[str, Any] | None = None
 ) -> str:
-    """Return the page as HTML.
+    """Return the page as HTML, without a scene with an arm of the catalog.
 
-    Args:
-        scene: What it shows at first; an arm of the catalog when not given.
-        served: Whether the process that serves it answers its requests.
-        program: The modules of a program, what is known of them as the engine answers `check`, and
-            the routine that is played with the answer to `motion`.
+    A program has its modules, what is known of them as the engine answers `check`, and the routine
+    that is played with the answer to `motion`.
     """
     text = (FOLDER / "page.html").read_text(encoding="utf-8")
     own = "null" if scene is None else scene.to_json()

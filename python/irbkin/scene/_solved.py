@@ -65,12 +65,7 @@ class Joints:
         return np.array(np.eye(4) if self.arm is None else link_frames(self.arm, q)[-1])
 
     def nearest(self, T: npt.ArrayLike, q: npt.ArrayLike) -> list[float]:
-        """Return the joint angles of a pose of the tool that are nearest to others [rad].
-
-        Raises:
-            InvalidModelError: The arm is neither of the catalog nor known by its URDF.
-            InvalidPoseError, UnreachableError: As `Robot.ik_nearest`.
-        """
+        """The joint angles of a pose of the tool that are nearest to others [rad]."""
         if self._robot is None:
             self._robot = self._made()
         joints: list[float] = self._robot.ik_nearest(T, q).tolist()

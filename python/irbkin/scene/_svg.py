@@ -117,11 +117,7 @@ def drawn(arm: Arm, q: npt.ArrayLike, ghosts: Iterable[npt.ArrayLike] = ()) -> s
 
 
 def of_scene(scene: Scene) -> str:
-    """Draw the arms of a scene where they start, with their other postures, and its paths.
-
-    Raises:
-        ValueError: It has no arm.
-    """
+    """Draw the arms of a scene where they start, with their other postures, and its paths."""
     if not scene.arms:
         raise ValueError("the scene has no arm: a picture (.svg) is of arms and paths")
     arms = [(it, start(it), [posture.q for posture in it.postures]) for it in scene.arms]

@@ -173,15 +173,8 @@ class Session:
         return self.reply()
 
     def take(self, data: bytes, sender: object, now: float) -> None:
-        """Take a datagram; of several, `reply` answers the newest.
-
-        Args:
-            data: The datagram.
-            sender: Who sent it: the first sender of a message is the only one.
-            now: When it came [s], by any clock.
-
-        Raises:
-            StreamError: The controller and the guard do not go together.
+        """Take a datagram, which came `now` [s] by any clock; of several, `reply` answers the
+        newest. The first sender of a message is the only one.
         """
         if self.peer not in (None, sender):
             self._count["foreign"] += 1
@@ -212,11 +205,7 @@ class Session:
                 self._waiting = (seqno, q, message, now)
 
     def reply(self) -> bytes | None:
-        """The answer to the newest datagram that was taken, or None.
-
-        Raises:
-            StreamError: The controller and the guard do not go together.
-        """
+        """The answer to the newest datagram that was taken, or None."""
         if self._waiting is None:
             return None
         (seqno, q, message, now), self._waiting = self._waiting, None
