@@ -4,7 +4,6 @@ import asyncio
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 from irbkin.lsp.programs import Programs
@@ -97,12 +96,6 @@ class Queue:
         """End the thread after its current check."""
         self._pool.shutdown(wait=False, cancel_futures=True)
 
-    def _continue(self, session: Session) -> None:
-        """Check a session again, a check of which took long."""
-        if self._sessions.get(_key(session)) is session:
-            self._stale[session] = None
-            self._wake()
-
     def _wake(self) -> None:
         if self._worker is None or self._worker.done():
             self._worker = asyncio.get_running_loop().create_task(self._work())
@@ -133,7 +126,6 @@ class Queue:
         self._of[path] = []
         for new in found:
             session = self._sessions.setdefault(_key(new), new)
-            session.over = partial(loop.call_soon_threadsafe, self._continue, session)
             self._of[path].append(session)
             self._stale[session] = None
 

@@ -1,8 +1,6 @@
 """Programs of open documents, each with its arm, and the results of their checks."""
 
-import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, wait
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from operator import is_
@@ -14,7 +12,7 @@ from irbkin.lsp.code import before, calls_at, occurrences, own_names
 from irbkin.lsp.names import PARAMETER, Declared, Names
 from irbkin.lsp.reading import Reading
 from irbkin.lsp.text import Text
-from irbkin.rapid import CheckedMove, Module, ModuleFile, Program
+from irbkin.rapid import CheckedMove, Module, Program
 
 
 @dataclass(eq=False)
@@ -81,8 +79,6 @@ class Result:
         return [declared.module] if is_inner else range(len(self.job.program.modules))
 
 
-SLOW = 2.0
-"""Longest wait for a check [s], which then goes on beside the others."""
 Part = tuple[Sequence[Module], Mapping[int, Sequence[CheckedMove]], Sequence[Finding]]
 """Modules of a program that have names in common, checked: the moves by the place of their module
 among these, and the findings.
@@ -100,11 +96,6 @@ class Session:
     notes: Sequence[str] = ()
     result: Result | None = None
     """The last result; None before the first check."""
-    over: Callable[[], object] = lambda: None
-    """Called in another thread when a check that took long is over."""
-    _late: dict[tuple[object, ...], tuple[Sequence[Module], Future[Part]]] = field(
-        default_factory=dict, repr=False
-    )
     _parts: dict[tuple[int, ...], Part] = field(default_factory=dict, repr=False)
     _declared: dict[int, tuple[Module, list[Declared]]] = field(default_factory=dict, repr=False)
 
@@ -116,16 +107,14 @@ class Session:
         """Read and check the program, with texts that take the place of files.
 
         A group of modules that have no name in common with others is checked if one of them is not
-        as before. While that takes long, its open documents are checked alone.
+        as before.
         """
         job = replace(self.job, program=self._reading.program(texts))
         _, found = self.checker.check(replace(job, robot=None))
         parts: dict[tuple[int, ...], Part] = {}
         moves: dict[int, Sequence[CheckedMove]] = {}
         for group in map(tuple, self._reading.groups if job.robot else ()):
-            part = self._part(job, group, texts)
-            if part[0]:
-                parts[group] = part
+            part = parts[group] = self._part(job, group)
             moves |= {group[index]: own for index, own in part[1].items()}
             found += part[2]
         self._parts = parts
@@ -134,56 +123,15 @@ class Session:
             found_in.setdefault(finding.file, []).append(finding)
         return Result(job, moves, found_in, Names(job.program, self._declared))
 
-    def _part(self, job: Job, group: tuple[int, ...], texts: Mapping[str, Text]) -> Part:
-        """Check a group of modules, if it is not as before; without modules if it takes long."""
-        modules = [job.program.modules[index] for index in group]
+    def _part(self, job: Job, group: tuple[int, ...]) -> Part:
+        """A group of modules, checked if it is not as before."""
+        modules = tuple(job.program.modules[index] for index in group)
         old = self._parts.get(group)
         if old and all(map(is_, old[0], modules)):
             return old
-        files = [job.program.files[index] for index in group]
-        part = self._checked(job, modules, files)
-        if part is not None:
-            return part
-        moves: dict[int, Sequence[CheckedMove]] = {}
-        found: list[Finding] = []
-        for index, (module, file) in enumerate(zip(modules, files, strict=True)):
-            if file.path not in texts:
-                continue
-            own = self._checked(replace(job, is_whole=False), [module], [file])
-            if own is None:
-                words = f"{file.path}: its check takes long, its findings follow"
-                self.notes = list(dict.fromkeys([*self.notes, words]))
-            else:
-                moves[index] = own[1].get(0, ())
-                found += own[2]
-        return (), moves, found
-
-    def _checked(
-        self, job: Job, modules: Sequence[Module], files: Sequence[ModuleFile]
-    ) -> Part | None:
-        """Check modules in a thread of their own; None while that takes long."""
-        key = (job.is_whole, *(file.path for file in files))
-        known, check = self._late.pop(key, ((), None))
-        if check is None or (check.done() and not all(map(is_, known, modules))):
-            known, check = modules, Future()
-            program = Program(tuple(modules), tuple(files))
-            arguments = (check, replace(job, program=program))
-            # Its end is not waited for when the server ends.
-            threading.Thread(target=self._check_beside, args=arguments, daemon=True).start()
-            wait([check], SLOW)
-            if not check.done():
-                check.add_done_callback(lambda _: self.over())
-        if check.done():
-            return check.result()
-        self._late[key] = known, check
-        return None
-
-    def _check_beside(self, check: Future[Part], job: Job) -> None:
-        try:
-            checked, found = self.checker.check(job)
-            moves: dict[int, list[CheckedMove]] = {}
-            for move in checked.moves:
-                moves.setdefault(move.module, []).append(move)
-            check.set_result((job.program.modules, moves, found))
-        except BaseException as error:
-            check.set_exception(error)
+        program = Program(modules, tuple(job.program.files[index] for index in group))
+        checked, found = self.checker.check(replace(job, program=program))
+        moves: dict[int, list[CheckedMove]] = {}
+        for move in checked.moves:
+            moves.setdefault(move.module, []).append(move)
+        return modules, moves, found

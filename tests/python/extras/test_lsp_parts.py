@@ -1,9 +1,6 @@
 """Parts of the language server: texts, programs read in parts, the queue of checks."""
 
-import asyncio
 import re
-import threading
-import time
 
 import irbkin
 import pytest
@@ -15,7 +12,6 @@ from irbkin.check.checker import Checker
 from irbkin.check.jobs import Job
 from irbkin.check.settings import Settings
 from irbkin.lsp import reading as reading_module
-from irbkin.lsp import session as session_module
 from irbkin.lsp.code import blocks, calls_at, occurrences
 from irbkin.lsp.queue import Queue
 from irbkin.lsp.reading import Reading
@@ -62,57 +58,6 @@ async def test_an_error_ends_nothing_but_what_it_is_about(fails):
     queue.stop()
     assert [str(it) for it in errors] == [str(it) for it in reversed(range(fails))]
     assert done[-1].result.job.program.modules[0].name == "a"
-
-
-class Stuck(Checker):
-    """Checks that do not end before they are released, of programs with the module `slow`."""
-
-    def __init__(self):
-        super().__init__({}, Settings())
-        self.released = threading.Event()
-
-    def sessions(self, path, options):
-        names = ("good.mod", "slow.mod", "other.mod")
-        return [Session(Job(ROBOT, program_of([]), ""), names, self)]
-
-    def check(self, job):
-        if job.robot and any(file.path == "slow.mod" for file in job.program.files):
-            self.released.wait(60.0)
-        return super().check(job)
-
-
-@pytest.mark.asyncio
-async def test_a_file_whose_check_takes_long_mutes_no_other_one(monkeypatch):
-    monkeypatch.setattr(session_module, "SLOW", 0.2)
-    errors, done, stuck = [], [], Stuck()
-    # They share names, so that they are checked together.
-    texts = {
-        f"{name}.mod": Text(
-            f"MODULE {name}\nPROC main()\nMoveJ p{name},v100,fine,tool0;\nfrom_{name};\nENDPROC\n"
-            f"PROC from_{name}()\nENDPROC\nENDMODULE"
-        )
-        for name in ("good", "slow")
-    }
-    queue = Queue(stuck, lambda: texts, done.append, errors.append)
-    queue.open("slow.mod", {})
-    queue.open("good.mod", {})
-    began = time.monotonic()
-    assert await queue.rest("good.mod", 20.0)
-    (session,) = queue.sessions("good.mod")
-    assert [it.code for it in session.result.found_in["good.mod"]] == ["N601"]
-    assert any(note.startswith("slow.mod: its check takes long") for note in session.notes)
-    # What is typed meanwhile is checked without a wait for the other one.
-    texts["good.mod"] = Text(texts["good.mod"].source.replace("pgood", "p"))
-    queue.change("good.mod")
-    assert await queue.rest("good.mod", 20.0)
-    assert any("p is not" in it.message for it in session.result.found_in["good.mod"])
-    assert time.monotonic() - began < 10.0
-    stuck.released.set()
-    while "N601" not in [it.code for it in session.result.found_in.get("slow.mod", ())]:
-        await asyncio.sleep(0.02)
-    await queue.rest("good.mod", 20.0)
-    queue.stop()
-    assert errors == []
 
 
 def module(name, *lines):
