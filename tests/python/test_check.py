@@ -537,20 +537,6 @@ def test_what_nothing_names_is_unused():
     }  # fmt: skip
 
 
-def test_the_verdict_counts_unused_names_by_their_declarations(tmp_path):
-    (file := tmp_path / "unused.mod").write_text(
-        f"""MODULE M
-    CONST ROBTARGET pOld:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],{FAR}];
-    PERS wobjdata wOld:=[FALSE,TRUE,"",[[1,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-    PROC main() TPWrite ""; ENDPROC
-    PROC tooldata1() VAR jointtarget jOld; VAR tooldata tOld; ENDPROC
-    ENDMODULE"""
-    )
-    *_, last = check(file, "--verdict").stdout.decode().splitlines()
-    words = "2 targets, 1 work object, 1 routine, 1 tool"
-    assert last == f"Nothing in the program names: {words} (--select U807)."
-
-
 def test_the_verdict_has_the_nearest_limit_and_singularity_of_each_routine(tmp_path):
     moves = "MoveJ pNear,v1000,fine,tGun;\nMoveL pFar,v200,fine,tGun;\nMoveJ pOut,v5,fine,tNone;\n"
     file = tmp_path / "two.mod"
@@ -585,7 +571,6 @@ def test_the_verdict_has_the_nearest_limit_and_singularity_of_each_routine(tmp_p
     kind = ("wrist", "elbow")[angles.min(axis=1).argmin()]
     assert re.match(rf"main +3 +1 +\d+ .*J{joint} {rooms.min():.1f} deg, line \d+", words), words
     assert re.search(rf"{kind} {angles.min():.1f} deg, line \d+$", words), words
-    assert lines[-1].startswith("Nothing in the program names: ")
 
 
 CALLS = """MODULE M

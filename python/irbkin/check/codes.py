@@ -26,8 +26,6 @@ TOOLS = (
 )
 NOT_CHECKED = ("U801", "U802", "U804")
 """Codes of moves that are not checked: errors with --strict."""
-UNUSED = "U807"
-"""The code of unused names, which are searched for on request alone."""
 REASONS = {
     "U801": "unknown values",
     "U802": "instructions or calls that are not followed",

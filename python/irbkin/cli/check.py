@@ -30,7 +30,6 @@ from irbkin._arm_options import is_arm_file, robot_of
 from irbkin.abb.folders import archive_of, backup_above
 from irbkin.check import fixes
 from irbkin.check.checker import Checker
-from irbkin.check.codes import UNUSED
 from irbkin.check.fixes import Text
 from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
@@ -157,8 +156,6 @@ def _check(arguments: argparse.Namespace) -> int:
     if form == "html" and len(jobs) > 1:
         titles = ", ".join(job.title for job in jobs)
         raise CommandError(f"a page shows one program, give the files of one of: {titles}")
-    if arguments.verdict:
-        checker.asked.add(UNUSED)
     with Progress("programs", len(jobs)) as progress:
         report = report_of(checker, _each(jobs, progress), left_open)
     for job in jobs:

@@ -39,7 +39,16 @@ def arm_of(
     postures: Iterable[Posture] | None = None,
     motion: Motion | None = None,
 ) -> Arm:
-    """The arm of a robot, drawn at rest when neither postures nor a motion are given."""
+    """Return the arm of a robot.
+
+    Args:
+        robot: The arm, with its tool, base and body.
+        postures: Where it is drawn; at rest when neither they nor a motion are given.
+        motion: How it moves.
+
+    Raises:
+        TypeError: `robot` is not a Robot.
+    """
     check_robot(robot)
     if postures is None:
         postures = () if motion else (Posture(rows(rest(robot))),)

@@ -1,5 +1,5 @@
 """A report to read in a terminal: a line for each finding, its source line with a caret; a summary
-of routines: nearest limits and singularities, unused names; corrections as a unified diff.
+of routines: nearest limits and singularities; corrections as a unified diff.
 """
 
 import difflib
@@ -13,9 +13,8 @@ import numpy as np
 from irbkin import Robot
 from irbkin._files import shown
 from irbkin._words import visible
-from irbkin.check.codes import UNUSED
 from irbkin.check.findings import Finding
-from irbkin.check.report import Report, counted, excerpt
+from irbkin.check.report import Report, excerpt
 from irbkin.rapid import CheckedMove
 
 STYLES = {"error": "bold red", "warning": "bold yellow", "note": "bold blue"}
@@ -25,13 +24,6 @@ HEADINGS = (
 )  # fmt: skip
 COUNTS = 6
 """End of the numeric columns, which begin at 1."""
-KINDS = {
-    "robtarget": "target",
-    "jointtarget": "target",
-    "tooldata": "tool",
-    "wobjdata": "work object",
-}
-"""Nouns for data by type; any other unused name is a routine."""
 
 
 def styled(text: str, style: str, is_colored: bool) -> str:
@@ -77,8 +69,6 @@ def _routines(report: Report) -> Iterator[str]:
                 for column, (cell, width) in enumerate(zip(row, widths, strict=True))
             ]
             yield "  ".join(cells).rstrip()
-    if words := unused(report):
-        yield from ("", words)
 
 
 def heading(found: Finding, is_colored: bool, show: Callable[[str], str] = visible) -> str:
@@ -129,21 +119,6 @@ def routines(report: Report) -> dict[str, list[tuple[str, ...]]]:
             near = _nearest(job.robot, [move for move in moves if move.q is not None])
             tables.setdefault(f"{file} ({job.title})", []).append((routine, *numbers, *near))
     return tables
-
-
-def unused(report: Report) -> str:
-    kinds = Counter[str]()
-    for job, checked in report.programs:
-        found = (own for own in checked.findings if own.code == UNUSED)
-        places = [(own.module, own.line, own.column) for own in found]
-        types = {
-            (index, data.line, data.column): data.data_type.lower()
-            for index in {module for module, *_ in places}
-            for data in job.program.modules[index].declarations
-        }
-        kinds.update(KINDS.get(types.get(place, ""), "routine") for place in places)
-    parts = [counted(count, kind) for kind, count in kinds.items()]
-    return f"Nothing in the program names: {', '.join(parts)} (--select {UNUSED})." if parts else ""
 
 
 def _nearest(robot: Robot | None, moves: Sequence[CheckedMove]) -> tuple[str, str]:
