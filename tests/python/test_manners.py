@@ -145,10 +145,6 @@ def reach_map(progress):
     irbkin.map.reach(ROBOT, AXIS, 0.0, AXIS, np.eye(3), block=30, progress=progress)
 
 
-def backup(progress):
-    irbkin.abb.load_backup(BACKUP, progress=progress)
-
-
 def plan(progress):
     # It takes some tenths of a second, and is reported every twentieth.
     path = paths.line(LINE[0], LINE[-1], steps=1200)
@@ -180,7 +176,7 @@ def test_a_plan_reports_its_progress():
         plan(5)
 
 
-WORKS = [(base, 59), (path, 16), (reach_map, 81), (backup, 3)]
+WORKS = [(base, 59), (path, 16), (reach_map, 81)]
 
 
 @pytest.mark.parametrize(("work", "total"), WORKS)

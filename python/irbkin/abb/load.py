@@ -8,7 +8,6 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal
 
-from irbkin._arguments import Bar, Report, reporter
 from irbkin.abb.arms import fitted
 from irbkin.abb.backinfo import BackInfo, parse_backinfo
 from irbkin.abb.backup import Backup, Controller, ControllerKind
@@ -27,14 +26,12 @@ OF_CONTROLLER = re.compile(r"[A-Z0-9]+")
 """Names as of signals of the controller's own boards, such as DRV1BRAKE: no file has them."""
 
 
-def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = None) -> Backup:
+def load_backup(path: str | PathLike[str]) -> Backup:
     """Read the backup of a controller: S4C+, IRC5, OmniCore.
 
     Args:
         path: The folder of the backup, one in it or above it, or an archive (.zip, .rspag). Of an
             archive with several, the path goes on: `station.rspag/Backups/NAME`.
-        progress: Called with the number of tasks that are read, and of all; or a bar as
-            `tqdm.tqdm()`.
 
     Returns:
         Backup. What the files do not determine is in `findings`; half a backup is read, too.
@@ -42,7 +39,6 @@ def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = No
     Raises:
         IrbkinError: There is no backup, or there are several; the message lists them.
     """
-    report = reporter(progress)
     folder = open_backup(Path(path).absolute())
     moc = parse_cfg(*folder.text("SYSPAR/MOC.cfg", "MOC.cfg"))
     sys = parse_cfg(*folder.text("SYSPAR/SYS.cfg", "SYS.cfg"))
@@ -50,7 +46,7 @@ def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = No
     info = parse_backinfo(*folder.text("BACKINFO/backinfo.txt", "backinfo.txt"))
     machine = read_machine(moc, info.arms) if moc.file else _by_wording(info)
     reader = TaskReader(folder, sys, moc, info, machine)
-    tasks = reader.read(report)
+    tasks = reader.read()
     machine = _with_only_axes(machine, tasks, moc.file)
     checksums = _checksums(folder)
     findings = [

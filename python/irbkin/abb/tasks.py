@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from irbkin._arguments import Report
 from irbkin.abb.backinfo import BackInfo, LoadedTask
 from irbkin.abb.carriers import USES, Machine
 from irbkin.abb.cfg import CfgFile, Instance
@@ -62,17 +61,12 @@ class TaskReader:
         self.robots = {name.lower(): name for name in machine.robots}
         self.units = {name.lower(): name for name in machine.units}
 
-    def read(self, report: Report) -> tuple[Task, ...]:
-        """Return all tasks: of the folders first, then those that SYS.cfg alone has; report how
-        many are read.
-        """
+    def read(self) -> tuple[Task, ...]:
+        """Return all tasks: of the folders first, then those that SYS.cfg alone has."""
         sources = list(self.sources())
         moving = _moving(sources)
         loads = Loads(self.folder, self.sys, moving)
-        tasks = []
-        for source in sources:
-            tasks.append(self.task(source, moving[source.name], loads))
-            report(len(tasks), len(sources))
+        tasks = [self.task(source, moving[source.name], loads) for source in sources]
         self.findings += loads.all_findings()
         self.report_unassigned(tasks)
         return tuple(tasks)
