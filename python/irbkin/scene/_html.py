@@ -8,16 +8,16 @@ import numpy as np
 from irbkin import Plan, Robot, Solutions
 from irbkin._shown import facts_of, joints_of
 from irbkin.scene._arms import arm_of, rest
-from irbkin.scene._svg import drawn
+from irbkin.scene._svg import picture
 from irbkin.trajectory import Trajectory
 
 MOST_ROWS = 16
 
 
 def of_robot(robot: Robot) -> str:
-    picture = drawn(arm_of(robot), rest(robot))
     title = f"<b>{escape(robot.name or 'Robot')}</b>"
-    return _beside(picture, title, facts_of(robot), _table(*joints_of(robot)))
+    drawn = picture([(arm_of(robot), rest(robot), ())])
+    return _beside(drawn, title, facts_of(robot), _table(*joints_of(robot)))
 
 
 def of_solutions(solutions: Solutions, robot: Robot) -> str:
@@ -29,9 +29,9 @@ def of_solutions(solutions: Solutions, robot: Robot) -> str:
     more = len(solutions) - len(rows)
     words = [solutions.explain(), *([f"{more} more"] if more > 0 else [])]
     q = [it.q for it in solutions]
-    picture = drawn(arm_of(robot), q[0], q[1:]) if rows else ""
+    drawn = picture([(arm_of(robot), q[0], q[1:])]) if rows else ""
     table = _table(head, rows) if rows else ""
-    return _beside(picture, f"<b>{escape(robot.name)}</b>", words, table)
+    return _beside(drawn, f"<b>{escape(robot.name)}</b>", words, table)
 
 
 def of_trajectory(move: Trajectory) -> str:
@@ -58,10 +58,10 @@ def of_plan(plan: Plan) -> str:
     return _beside("", "<b>Plan</b>", words, _table(head, rows))
 
 
-def _beside(picture: str, title: str, words: Iterable[str], table: str) -> str:
+def _beside(drawn: str, title: str, words: Iterable[str], table: str) -> str:
     line = escape(", ".join(words))
     text = f"<div>{title}<br>{line}{table}</div>"
-    return f'<div style="display:flex;gap:1rem;align-items:center">{picture}{text}</div>'
+    return f'<div style="display:flex;gap:1rem;align-items:center">{drawn}{text}</div>'
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

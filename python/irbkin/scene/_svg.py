@@ -111,23 +111,18 @@ def _outlines(faces: list[list[int]]) -> list[list[int]]:
     return loops
 
 
-def drawn(arm: Arm, q: npt.ArrayLike, ghosts: Iterable[npt.ArrayLike] = ()) -> str:
-    """Draw an arm's body, and other postures as faint chains."""
-    return _picture([(arm, q, list(ghosts))], (), SIZE)
-
-
 def of_scene(scene: Scene) -> str:
     """Draw the arms of a scene where they start, with their other postures, and its paths."""
     if not scene.arms:
         raise ValueError("the scene has no arm: a picture (.svg) is of arms and paths")
     arms = [(it, start(it), [posture.q for posture in it.postures]) for it in scene.arms]
-    return _picture(arms, [np.array(it.points) for it in scene.paths if it.points], LARGE)
+    return picture(arms, [np.array(it.points) for it in scene.paths if it.points], LARGE)
 
 
-def _picture(
+def picture(
     arms: Sequence[tuple[Arm, npt.ArrayLike, Sequence[npt.ArrayLike]]],
-    paths: Iterable[Floats],
-    size: int,
+    paths: Iterable[Floats] = (),
+    size: int = SIZE,
 ) -> str:
     """Draw arms at joint angles, each with other postures, and ways of their tools."""
     arms = sorted(arms, key=lambda it: float(nearness(np.array(it[0].base)[:3, 3])))
