@@ -226,7 +226,6 @@ def _poses(axes: Sequence[Floats], rotations: Floats, places: npt.NDArray[np.int
 
 
 def _rotations(robot: Robot, given: npt.ArrayLike, q7: float | None) -> Floats:
-    """Rotations that `ik` takes, one by one."""
     shape = (3, 3) if np.ndim(all_poses(given)) == 2 else (None, 3, 3)
     rotations = as_array(given, "orientations", shape, InvalidPoseError).reshape(-1, 3, 3)
     pose = np.eye(4)

@@ -175,7 +175,6 @@ class Bases:
         return bool(self.high[3] - self.low[3] > 2 * np.pi - 1e-9)
 
     def axes(self) -> list[Floats]:
-        """The values of each coordinate on the grid."""
         ends = [True, True, True, not self.is_full_turn]
         return [
             np.linspace(a, b, n, endpoint=end) if n > 1 else np.array([0.5 * (a + b)])

@@ -74,7 +74,6 @@ def canvas(figure: Canvas | None, width: float, height: float) -> Canvas:
 
 
 def whole(figure: Canvas) -> Figure:
-    """The figure that a subfigure is in."""
     top = figure.get_figure(root=True)
     assert isinstance(top, Figure)
     return top
@@ -190,7 +189,6 @@ def _times(motion: Trajectory) -> Floats:
 
 
 def _range(limits: npt.ArrayLike | None, dof: int) -> Floats | None:
-    """The joint limits, if they are in order."""
     if limits is None:
         return None
     bounds = as_array(limits, "limits", (dof, 2), InvalidMotionError)

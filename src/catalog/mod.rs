@@ -30,8 +30,7 @@ const GOFA: &str = "CRB 15000-";
 pub struct CatalogArm {
     /// The maker's type name.
     pub name: &'static str,
-    /// "ABB", "Universal Robots", "Franka", "FANUC", "UFACTORY", "TheRobotStudio" or "Trossen
-    /// Robotics".
+    /// Its maker, as "Universal Robots".
     pub maker: &'static str,
     /// Payload [kg], as its type name or the maker's data sheet has it; of several
     /// generations the least.

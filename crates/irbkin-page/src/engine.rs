@@ -4,8 +4,7 @@ use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 
-use irbkin::internal::ModelFault;
-use irbkin::{Robot, on, on_configured};
+use irbkin::{on, on_configured};
 use irbkin_motion::cell::Cell;
 use serde::Serialize;
 use serde_json::Value;
@@ -32,7 +31,7 @@ pub struct Page {
 /// Evaluate one expression on an arm that may have configurations; refuse another.
 macro_rules! configured {
     ($arm:expr, $inner:ident => $body:expr) => {
-        on_configured!($arm, $inner => $body, arm => Err(without_configuration(arm)))
+        on_configured!($arm, $inner => $body, arm => Err(arm.lacks_configurations().into()))
     };
 }
 
@@ -114,12 +113,6 @@ impl Page {
 fn ok<T: Serialize>(ok: T) -> Result<String, Refusal> {
     serde_json::to_string(&Granted { ok })
         .map_err(|error| Refusal(format!("the answer cannot be written: {error}")))
-}
-
-/// Targets and programs of RAPID are of arms with configurations.
-fn without_configuration(arm: &Robot<5>) -> Refusal {
-    let fault = ModelFault::NoConfiguration { structure: arm.structure(), snap: None };
-    Refusal::from(irbkin::Error::from(fault))
 }
 
 /// The answer that refuses a request, in a sentence.

@@ -33,16 +33,11 @@ pub(super) use each;
 macro_rules! configured {
     ($arm:expr, $inner:ident => $body:expr) => {
         irbkin::on_configured!($arm, $inner => $body, arm => {
-            return Err($crate::arm::no_configuration(arm));
+            return Err($crate::errors::exception(arm.lacks_configurations()));
         })
     };
 }
 pub(super) use configured;
-
-pub(super) fn no_configuration(arm: &Robot<5>) -> PyErr {
-    let fault = ModelFault::NoConfiguration { structure: arm.structure(), snap: None };
-    exception(Error::from(fault))
-}
 
 /// The arm of the catalog with a name: each is made once, for a robot is frozen.
 pub(super) fn named(name: &str) -> Result<SharedArm, Error> {

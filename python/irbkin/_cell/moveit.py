@@ -172,7 +172,6 @@ def _plain(value: Any) -> Any:
 
 
 def _check_world(root: Entry) -> None:
-    """Refuse octomaps, and objects that are attached to the arm."""
     world = root.sub("world")
     world.check("collision_objects", "octomap")
     octomap = world.sub("octomap")

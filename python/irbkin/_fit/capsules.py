@@ -56,7 +56,6 @@ def fitted(solid: Solid, excess: float | None, most: int) -> tuple[Array, float]
 
 
 def started(solid: Solid, count: int, stretch: float, rng: np.random.Generator) -> Array:
-    """Capsules from one random start."""
     middles = solid.points[solid.pieces].mean(axis=1)
     longest = axes_of(solid.points)[2]
     owner = split(middles - (1 - stretch) * np.outer(middles @ longest, longest), count, rng)

@@ -30,8 +30,6 @@ ROUNDING, THICKNESS = 1e-8, 1e-6
 
 
 class Part(NamedTuple):
-    """Triangles, and the corners of their hull."""
-
     triangles: Array
     corners: Array
     volume: float

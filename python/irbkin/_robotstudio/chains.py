@@ -99,7 +99,6 @@ def arm_of(kinematics: Element, flange_link: int | None) -> Arm:
 
 
 def _rows(kinematics: Element) -> tuple[dict[int, _Row], list[bool]]:
-    """The rows by their links, and whether each joint turns."""
     joints = xml.parts(kinematics, "jointinfos")
     rows: dict[int, _Row] = {}
     for index, joint in enumerate(joints):
@@ -126,7 +125,6 @@ def _rows(kinematics: Element) -> tuple[dict[int, _Row], list[bool]]:
 
 
 def _starts(kinematics: Element) -> dict[int, Floats]:
-    """The frames of the joints that start at the base."""
     bases = xml.parts(kinematics, "kinematicbaseframes")
     frames = [xml.transform(it) for it in bases if len(it) == 4]
     joints = [int(it) for it in xml.numbers(xml.child(kinematics, "basejoints"))] or [0]

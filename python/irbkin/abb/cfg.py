@@ -96,7 +96,6 @@ class CfgFile:
 
     @cached_property
     def _names(self) -> dict[tuple[str, str], Instance]:
-        """The first instance of each type and name."""
         names: dict[tuple[str, str], Instance] = {}
         for type_name, instances in self.types.items():
             for it in instances:

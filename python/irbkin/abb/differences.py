@@ -351,7 +351,6 @@ def diff(old: Backup | str | PathLike[str], new: Backup | str | PathLike[str]) -
 
 
 def _sides(backup: Backup) -> dict[str, Side]:
-    """The programs of a backup by task, with their robots where they are known."""
     sides = {}
     for task in backup.tasks:
         if task.name not in backup.programs:

@@ -241,7 +241,6 @@ def _inside(folder: Path) -> list[os.DirEntry[str]]:
 
 
 def _parts(folder: Path) -> int:
-    """Return how many of the folders of a backup a folder has."""
     names = {entry.name.upper() for entry in _inside(folder) if entry.is_dir()}
     return len(names.intersection(PARTS))
 

@@ -79,7 +79,6 @@ class _Reader:
         return (*joints, seventh.text("use_joint", seventh.name)) if seventh else tuple(joints)
 
     def seventh_of(self, robot: Instance) -> Instance | None:
-        """Return the single that is axis 7 of a robot."""
         return self.moc.named("SINGLE", f"{robot.name}_7")
 
     def robot(self, of: Instance) -> RobotUnit:

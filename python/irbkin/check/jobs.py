@@ -69,7 +69,6 @@ def only_job(robot: Robot, names: Sequence[str], settings: Settings) -> Job:
 
 
 def job_of_task(backup: Backup, task: Task, program: Program) -> Job:
-    """Return the job of a task of a backup; without a robot if the task moves no known arm."""
     unit = backup.robots.get(task.robot or "")
     if task.moves is False or unit is None or unit.robot is None:
         return Job(None, program, task.name, signals=backup.signals)

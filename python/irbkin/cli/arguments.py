@@ -158,7 +158,6 @@ class Parser(argparse.ArgumentParser):
 
 
 def _is_arm(word: str) -> bool:
-    """Whether a word is a name in the catalog, or a file of an arm."""
     from irbkin import catalog_entry
 
     try:

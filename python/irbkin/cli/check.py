@@ -170,7 +170,6 @@ def _check(arguments: argparse.Namespace) -> int:
 
 
 def check_tools(tools: Iterable[str | None], jobs: list[Job]) -> None:
-    """Report tools that stand for none."""
     modules = [module for job in jobs for module in job.program.modules]
     for name in filter(None, tools):
         if any(it.name.lower() == name.lower() for own in modules for it in own.declarations):

@@ -15,7 +15,6 @@ STDIN = "-"
 
 @contextlib.contextmanager
 def opened(name: str) -> Iterator[BinaryIO]:
-    """The bytes of a file, or of stdin where the name is `-`."""
     if name == STDIN:
         if sys.stdin is None:
             raise CommandError("stdin is closed")
@@ -26,7 +25,6 @@ def opened(name: str) -> Iterator[BinaryIO]:
 
 
 def put_text(name: str | None, text: str) -> None:
-    """Write a text to a file, or to stdout where there is no name or it is `-`."""
     if name in (None, STDIN):
         sys.stdout.write(text)
     else:

@@ -214,7 +214,6 @@ FORMATS = {".csv": Csv, ".json": Json, ".npy": Npy}
 
 @contextlib.contextmanager
 def table(arguments: argparse.Namespace, heading: str) -> Iterator[Rows]:
-    """Where the rows go, by the arguments."""
     output: str = arguments.output or STDIN
     ending = ".json" if arguments.json else ".csv" if arguments.csv else output.lower()
     kind: type[Rows] = next((it for end, it in FORMATS.items() if ending.endswith(end)), Table)

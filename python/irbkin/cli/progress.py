@@ -15,8 +15,6 @@ AFTER = 1.0
 
 
 class Progress(contextlib.ExitStack):
-    """Shows how much is done, how fast, and how long the rest takes."""
-
     def __init__(self, what: str, total: int | None = None) -> None:
         super().__init__()
         self.what, self.total, self.done = what, total, 0

@@ -120,7 +120,6 @@ def _found_at(result: Result, module: int, move: CheckedMove) -> list[Finding]:
 
 
 def _value(value: Any) -> Iterator[str]:
-    """Yield the value of a datum; frames in words."""
     if isinstance(value, rapid.ToolData):
         held = "held by the robot" if value.robhold else "stationary"
         load = value.tload

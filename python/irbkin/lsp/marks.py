@@ -36,7 +36,6 @@ def uri_of(path: str) -> str:
 
 
 def found_in(results: Iterable[Result], path: str) -> Iterator[tuple[Result, Finding, types.Range]]:
-    """Yield the findings of all checks of a file, each with its statement."""
     for result in results:
         module = result.modules.get(path)
         text = Text("") if module is None else result.text(module)
@@ -135,7 +134,6 @@ def symbols(result: Result, module: int) -> list[types.DocumentSymbol]:
 
 
 def folds(result: Result, module: int) -> list[types.FoldingRange]:
-    """Return the blocks of a module, and its comments of several lines."""
     text = result.text(module)
     parts = [(begin, end) for begin, end, _ in text.blocks]
     parts += [match.span() for match in COMMENTS.finditer(text.source)]

@@ -105,7 +105,6 @@ class Names:
 
     @cached_property
     def of_modules(self) -> list[list[Declared]]:
-        """All declarations of each module, in the order of the text."""
         for at, module in enumerate(self.program.modules):
             if at not in self._known or self._known[at][0] is not module:
                 self._known[at] = (module, declarations(module, at))

@@ -38,7 +38,6 @@ class Queue:
         return self._of.get(path, ())
 
     def open(self, path: str, options: Mapping[str, Any]) -> None:
-        """Find the sessions of a document and check them."""
         self._new[path] = options
         self._wake()
 

@@ -315,7 +315,6 @@ class Scene(_Part):
 
 
 def _check_hull(hull: LinkHull, place: str) -> None:
-    """Check that faces are triangles of points that there are."""
     count = len(hull.points)
     if not count or any(len(it) != 3 for it in hull.points):
         raise IrbkinError(f"{place}.points must be one or more of three numbers")

@@ -35,8 +35,6 @@ class Engines:
 
 
 class Joints:
-    """The joints of the first arm of a scene, and its tool."""
-
     def __init__(self, scene: Scene) -> None:
         self.arm = scene.arms[0] if scene.arms else None
         self._robot: Robot | None = None

@@ -87,7 +87,6 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// Return the chain of an arm that reaches a pose turned about axis 1 by up to a tolerance [rad].
     #[must_use]
     pub(crate) fn with_heading_tolerance(mut self, tolerance: f64) -> Self {
         self.heading_tolerance = tolerance;
@@ -123,8 +122,6 @@ impl<const N: usize> Chain<N> {
         self.coupling
     }
 
-    /// How far a pose may be turned about axis 1 for an arm of five axes to reach it [rad].
-    #[must_use]
     pub(crate) fn heading_tolerance(&self) -> f64 {
         self.heading_tolerance
     }

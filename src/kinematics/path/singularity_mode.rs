@@ -80,40 +80,30 @@ impl Robot<6> {
     }
 }
 
-impl Robot<7> {
-    /// Follow `path` with one continuous joint path inside the limits, starting from the joints
-    /// nearest to `seed` [rad] that reach the first pose. Each step is the smallest along the
-    /// self-motion of its pose, by `weights`; a joint of [`Robot::locked`] stays at its angle.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
-    pub fn follow(
-        &self,
-        path: &[Pose],
-        seed: &[f64; 7],
-        weights: &[f64; 7],
-    ) -> Result<Followed<7>, Error> {
-        self.follow_through(path, seed, weights, Interrupt::none())
-    }
+macro_rules! follow_by_weights {
+    ($($joints:literal)+) => {
+        $(impl Robot<$joints> {
+            /// Follow `path` with one continuous joint path inside the limits, starting from the
+            /// joints nearest to `seed` [rad] that reach the first pose. Of seven joints each step
+            /// is the smallest along the self-motion of its pose, by `weights`, and a joint of
+            /// [`Robot::locked`] stays at its angle; five reach each pose within
+            /// [`Robot::heading_tolerance`].
+            ///
+            /// # Errors
+            ///
+            /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
+            pub fn follow(
+                &self,
+                path: &[Pose],
+                seed: &[f64; $joints],
+                weights: &[f64; $joints],
+            ) -> Result<Followed<$joints>, Error> {
+                self.follow_through(path, seed, weights, Interrupt::none())
+            }
+        })+
+    };
 }
-
-impl Robot<5> {
-    /// Follow `path` with one continuous joint path inside the limits, starting from the solution
-    /// nearest to `seed` [rad]; headings are those of [`Robot::heading_tolerance`].
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
-    pub fn follow(
-        &self,
-        path: &[Pose],
-        seed: &[f64; 5],
-        weights: &[f64; 5],
-    ) -> Result<Followed<5>, Error> {
-        self.follow_through(path, seed, weights, Interrupt::none())
-    }
-}
+follow_by_weights!(5 7);
 
 impl<const N: usize> Robot<N> {
     /// [`Robot::<7>::follow`] until it is interrupted, of any number of joints.

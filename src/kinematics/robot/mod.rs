@@ -136,8 +136,13 @@ impl<const N: usize> Robot<N> {
 
     /// The arm as one with configurations.
     pub(in crate::kinematics) fn with_configurations(&self) -> Result<&dyn Configured<N>, Error> {
-        let none = ModelFault::NoConfiguration { structure: self.structure(), snap: None };
-        Ok(self.count.configured.ok_or(none)?(self))
+        Ok(self.count.configured.ok_or_else(|| self.lacks_configurations())?(self))
+    }
+
+    /// The error of an arm without configurations.
+    #[doc(hidden)]
+    pub fn lacks_configurations(&self) -> Error {
+        ModelFault::NoConfiguration { structure: self.structure(), snap: None }.into()
     }
 
     /// The arm as one that has one joint more than a pose needs; it may be locked.

@@ -46,7 +46,6 @@ impl Arm<5> {
             options,
             tests: Tests::new(self, options, accept)?,
             interrupt,
-            ends: Vec::new(),
         };
         let mut best: Option<Plan<5>> = None;
         for Strand { q, end } in search.strands(&path, options.start)? {
@@ -89,8 +88,6 @@ struct Search<'a, 'b> {
     options: &'a PlanOptions<5>,
     tests: Tests<'a, 'b, 5>,
     interrupt: Interrupt<'a>,
-    /// Where and why the strands from the first pose end.
-    ends: Vec<StrandEnd>,
 }
 
 impl Search<'_, '_> {
@@ -147,12 +144,13 @@ impl Search<'_, '_> {
         let mut plan = self.arm.plan_along(&[], self.options);
         let mut leave = None;
         let mut pose_index = 0;
+        let mut ends = Vec::new();
         while plan.q.len() < path.len() {
             let from = plan.q.len();
             let start = self.options.start.filter(|_| from == 0);
             let strands = self.strands(&path[from..], start)?;
             if from == 0 {
-                self.note_ends(&strands);
+                ends = strands.iter().filter_map(|strand| self.end(strand)).collect();
                 pose_index = strands.iter().map(|strand| strand.q.len()).max().unwrap_or(0);
             }
             let longest = strands.into_iter().map(|strand| strand.q).max_by_key(Vec::len);
@@ -183,15 +181,11 @@ impl Search<'_, '_> {
         let back = self.strands(&backward, self.options.end)?;
         let reached = back.iter().map(|strand| strand.q.len()).max().unwrap_or(0);
         let end_index = path.len() - 1 - reached.min(path.len() - 1);
-        Ok(NoPlan { pose_index: pose_index.min(path.len() - 1), end_index, ends: self.ends, plan })
+        Ok(NoPlan { pose_index: pose_index.min(path.len() - 1), end_index, ends, plan })
     }
 
-    fn note_ends(&mut self, strands: &[Strand<5>]) {
-        for strand in strands {
-            let slot = strand.q.first().and_then(|q| self.arm.slot_of(q)).map_or(0, Slot::index);
-            if let Some(reason) = strand.end.clone() {
-                self.ends.push(StrandEnd { slot, pose_index: strand.q.len(), reason });
-            }
-        }
+    fn end(&self, strand: &Strand<5>) -> Option<StrandEnd> {
+        let slot = strand.q.first().and_then(|q| self.arm.slot_of(q)).map_or(0, Slot::index);
+        Some(StrandEnd { slot, pose_index: strand.q.len(), reason: strand.end.clone()? })
     }
 }

@@ -9,7 +9,7 @@ use pyo3::types::PyTuple;
 use super::checked::{Checked, CheckedMove, Finding};
 use super::class;
 use super::module::{RapidModule, close_names};
-use crate::arm::{SharedArm, configured, no_configuration};
+use crate::arm::{SharedArm, configured};
 use crate::bodies::Shapes;
 use crate::cell::PyCell;
 use crate::errors::{Fault, exception};
@@ -224,7 +224,7 @@ pub(crate) fn port_program<'py>(
 fn six_joints<'a>(robot: &'a Bound<'_, PyRobot>, argument: &str) -> PyResult<&'a Robot<6>> {
     match robot.get().arm() {
         SharedArm::Six(arm) => Ok(arm),
-        SharedArm::Five(arm) => Err(no_configuration(arm)),
+        SharedArm::Five(arm) => Err(exception(arm.lacks_configurations())),
         SharedArm::Seven(arm) => Err(Fault::Model.error(format_args!(
             "{argument} is {}, which has seven joints: programs of six are ported",
             arm.name()

@@ -8,7 +8,7 @@ use super::checked::Finding;
 use super::class::JointTarget;
 use super::module::{RapidModule, counted};
 use super::program::MotionMove;
-use crate::arm::{ByJoints, SharedArm, configured, no_configuration, on};
+use crate::arm::{ByJoints, SharedArm, configured, on};
 use crate::arrays::vector;
 use crate::errors::{Fault, exception};
 use crate::outputs::{column, matrix, read_only};
@@ -113,7 +113,7 @@ pub(crate) fn motion(
     match arm {
         SharedArm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),
         SharedArm::Seven(arm) => made(robot, arm, module, routine, &given, ByJoints::Seven),
-        SharedArm::Five(arm) => Err(no_configuration(arm)),
+        SharedArm::Five(arm) => Err(exception(arm.lacks_configurations())),
     }
 }
 

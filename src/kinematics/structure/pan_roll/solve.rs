@@ -204,11 +204,10 @@ impl Filling<'_> {
         let left = along_and_left(point, plane)[1];
         let as_it_is = self.target.facing(plane, along_and_left(&self.target.wrist, plane)[0]);
         let by_rotation = ((left - beside).abs() <= rounding).then_some(as_it_is);
-        let exact = if *sin_phi <= NEARLY_UPRIGHT {
-            self.plane_by_wrist(plane).or(by_rotation)
-        } else {
-            by_rotation.or_else(|| self.plane_by_wrist(plane))
-        };
+        let by_wrist = || self.plane_by_wrist(plane);
+        let is_upright = *sin_phi <= NEARLY_UPRIGHT;
+        let exact =
+            if is_upright { by_wrist().or(by_rotation) } else { by_rotation.or_else(by_wrist) };
         let distance = (point.x * point.x + point.y * point.y).sqrt();
         let outside = beside.abs() - distance;
         if outside > REACH_TOLERANCE && exact.is_none() {
