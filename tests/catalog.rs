@@ -203,10 +203,12 @@ fn the_zero_pose_is_the_sum_of_the_lengths_in_the_drawing() {
     }
 }
 
-/// Arm, joint angles [rad], position of the tip [mm], quaternion w x y z: products of the origins of
-/// the makers' URDFs, calculated with NumPy.
+/// Arm, joint angles [rad], position of the tip [mm], quaternion w x y z.
+type FiveAxes = (&'static str, [f64; 5], [f64; 3], [f64; 4]);
+
+/// Products of the origins of the makers' URDFs, calculated with NumPy.
 #[rustfmt::skip]
-const FIVE_AXES: [(&str, [f64; 5], [f64; 3], [f64; 4]); 4] = [
+const FIVE_AXES: [FiveAxes; 4] = [
     ("SO-101", [0.0; 5], [20.394979, -375.6011, 258.9517], [1.0, 0.0, 0.0, 0.0]),
     ("SO-101", [0.3, -0.4, 0.5, -0.6, 0.7], [-70.001297138, -298.193253807, 326.534164952],
      [0.88727218768, -0.180145857997, 0.363237369728, -0.219895766329]),

@@ -484,7 +484,9 @@ def test_a_urdf_takes_its_links_and_a_snap(tmp_path):
     assert '; give --tip "l6" (6 joints)' in refused("fk", file, *zeros)
     found = rows(run("fk", file, *zeros, "--tip", "l6", "--csv"))
     assert found["x_mm"][0] == pytest.approx(935)
-    assert "for an arm of five axes" in refused("fk", file, *zeros, "--tip", "l6", "--base-link", "l1")
+    assert "for an arm of five axes" in refused(
+        "fk", file, *zeros, "--tip", "l6", "--base-link", "l1"
+    )
     assert "go with a .urdf file" in refused("fk", NAME, *zeros, "--tip", "l6")
     file.write_text(with_a_finger(4e-6))
     note = run("fk", file, *zeros, "--tip", "l6").stderr.decode()

@@ -4,20 +4,19 @@ import math
 import pickle
 from collections.abc import Callable
 
+import irbkin
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-import irbkin
 from irbkin import Reach, Robot
 
 SO101 = Robot("SO-101")
 VIPERX = Robot("ViperX 300")
 ARMS = pytest.mark.parametrize("robot", [SO101, VIPERX], ids=lambda robot: robot.name)
 
-# Origins of the SO-101's joints in its maker's URDF (TheRobotStudio/SO-ARM100): position [mm], rotation
-# about fixed x, y and z [deg]; then the tip. Every joint turns about z.
+# Origins of the SO-101's joints in its maker's URDF (TheRobotStudio/SO-ARM100): position [mm],
+# rotation about fixed x, y and z [deg]; then the tip. Every joint turns about z.
 ORIGINS = [
     ((20.7909, -23.0745, 94.8817), (180, 0, 90)),
     ((-30.3992, -18.2778, -54.2), (-90, -90, 0)),
@@ -113,7 +112,7 @@ def test_a_vertical_tool_is_reached_exactly(robot):
     frame = robot.link_frames(q)[4]
     tilt = math.atan2(np.hypot(*frame[:2, 2]), frame[2, 2])
     for sign in (1, -1):
-        down = q + [0, 0, 0, sign * (math.pi - tilt), 0]
+        down = q + np.array([0, 0, 0, sign * (math.pi - tilt), 0])
         if abs(robot.link_frames(down)[4][2, 2]) > 1 - 1e-12:
             break
     for heading in (0.0, 1.0, -2.5):
@@ -133,23 +132,27 @@ def test_a_position_alone_keeps_the_roll(q, seed):
     except irbkin.UnreachableError:
         return
     np.testing.assert_allclose(SO101.fk(found)[:3, 3], target[:3, 3], atol=1.1e-9)
-    np.testing.assert_array_equal(
-        found, SO101.ik_nearest(target[:3, 3], seed, position_only=True)
-    )
+    np.testing.assert_array_equal(found, SO101.ik_nearest(target[:3, 3], seed, position_only=True))
     assert SO101.limits[:, 0].min() - 1e-9 <= found.min()
 
 
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda T: SO101.ik(T, heading_tolerance=-1.0), "heading_tolerance is -1 rad, it must be 0 to"),
+        (
+            lambda T: SO101.ik(T, heading_tolerance=-1.0),
+            "heading_tolerance is -1 rad, it must be 0 to",
+        ),
         (lambda T: SO101.ik(T, heading_tolerance=math.nan), "heading_tolerance is NaN rad"),
         (lambda T: SO101.with_heading_tolerance(3.2), "heading_tolerance is 3.2 rad"),
         (lambda T: Robot("UR5e").ik(T, heading_tolerance=0.1), "arms of five axes: this one has 6"),
         (lambda T: SO101.ik(T, 0.3), "q7 is joint 7 of an arm of seven joints"),
         (lambda T: SO101.fk([0.0] * 6), r"q must have shape \(\.\.\., 5\), got \(6,\)"),
         (lambda T: SO101.configuration([0.0] * 5), "no ABB configuration"),
-        (lambda T: SO101.plan([T], rotation=irbkin.ToolRotation()), "rotation is for arms of six or"),
+        (
+            lambda T: SO101.plan([T], rotation=irbkin.ToolRotation()),
+            "rotation is for arms of six or",
+        ),
         (lambda T: SO101.follow([T], [0.0] * 5, singularity_mode="wrist"), "arms of six joints"),
         (
             lambda T: SO101.ik_nearest(T, [0.0] * 5, position_only=True, heading_tolerance=0.1),
@@ -196,6 +199,12 @@ def test_a_urdf_of_five_axes_is_read_back(robot):
 
 
 def test_five_joints_of_another_structure_are_refused_by_their_axes():
-    rows = [[0, 0, 0.3, 0], [1.2, 0, 0, 0], [0, 0.3, 0, 0], [0, 0.3, 0, 0], [math.pi / 2, 0, 0.1, 0]]
+    rows = [
+        [0, 0, 0.3, 0],
+        [1.2, 0, 0, 0],
+        [0, 0.3, 0, 0],
+        [0, 0.3, 0, 0],
+        [math.pi / 2, 0, 0.1, 0],
+    ]
     with pytest.raises(irbkin.InvalidModelError, match="axes 1 and 2 must be at right angles"):
         Robot.from_mdh(rows)

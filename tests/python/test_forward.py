@@ -38,7 +38,9 @@ def robot(arm):
 def test_every_catalog_arm_has_a_golden_table_or_pose():
     """The poses of the arms without a table here are checked in tests/catalog.rs."""
     posed = {row["robot"] for row in read("abb_catalog_poses.csv")}
-    others = {name for name in irbkin.catalog() if name.startswith(("CRX", "IRB 140", "SO-101", "ViperX"))}
+    others = {
+        name for name in irbkin.catalog() if name.startswith(("CRX", "IRB 140", "SO-101", "ViperX"))
+    }
     assert set(irbkin.catalog()) == set(CATALOG) | posed | others
     assert len(others - set(CATALOG) - posed) == 7
 

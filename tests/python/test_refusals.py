@@ -143,7 +143,8 @@ JOINTS = [
     ("panda.locked({8: 0.2})", "given: there is no joint 8, it must be 1 to 7"),
 ]  # fmt: skip
 MODELS = [
-    ("Robot.from_mdh(np.zeros((6, 3)))", "rows must have shape (5, 4), (6, 4) or (7, 4), got (6, 3)"),
+    ("Robot.from_mdh(np.zeros((6, 3)))",
+     "rows must have shape (5, 4), (6, 4) or (7, 4), got (6, 3)"),
     ("Robot.from_mdh(put(rows, (2, 0), nan))", "alpha of row 3 is NaN, it must be finite"),
     ("Robot.from_mdh(put(rows, (2, 3), inf))", "theta of row 3 is inf, it must be finite"),
     # The twist and the length of a standard row belong to the next row of a modified table.

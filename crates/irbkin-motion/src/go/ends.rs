@@ -37,7 +37,7 @@ pub(super) fn free_ends<const N: usize>(
     [start, goal]: [&End<N>; 2],
 ) -> Result<[Vec<[f64; N]>; 2], Error> {
     let (near, has_turns) = match goal {
-        End::Joints(q) if q.iter().all(|angle| angle.is_finite()) => ([*q], true),
+        End::Joints(q) if q.iter().copied().all(f64::is_finite) => ([*q], true),
         _ => ([robot.limits().rest()], false),
     };
     let start =

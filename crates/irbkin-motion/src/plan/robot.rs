@@ -89,7 +89,7 @@ pub(super) fn planned(
     let path = checked_path(path, options)?;
     let joints = PlannedJoints::of(robot, options.weights);
     let joints = match options.start.or(options.end) {
-        Some(q) if q.iter().all(|angle| angle.is_finite()) => joints.around(&q),
+        Some(q) if q.iter().copied().all(f64::is_finite) => joints.around(&q),
         _ => joints,
     };
     let [fine, coarse] = freedoms(options);
