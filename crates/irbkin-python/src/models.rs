@@ -141,8 +141,8 @@ impl PyRobot {
     ///         is a program. Of a text that others send give bytes, which name no file.
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
-    ///         or seven joints, or else of five, if the last of these can be no gripper's; of several on one link
-    ///         the first named tool0, tcp, flange or grasp.
+    ///         or seven joints, or else of five, if the last can be no gripper's; of several on one
+    ///         link the first named tool0, tcp, flange or grasp.
     ///     name: A name of your own; the URDF's when not given.
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
     ///         exact [rad], at most 1e-3; 0 keeps all. By default right angles rounded to four or

@@ -107,7 +107,7 @@ pub(super) fn locked(
     Ok(SharedArm::Seven(locked))
 }
 
-/// Poses, shape (..., 4, 4), and the angle of joint 7 for each, broadcast: none for six joints, and where a joint of seven is locked.
+/// Poses, shape (..., 4, 4), and the angle of joint 7 for each, broadcast, where it is not locked.
 pub(super) fn read_poses_with_q7<'py>(
     arm: &SharedArm,
     poses: &Bound<'py, PyAny>,

@@ -109,10 +109,10 @@ impl PyRobot {
     }
 
     /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", "offset
-    /// wrist", "pan, three parallel axes, roll", or "general" for any other; "refined spherical wrist" or "refined three parallel
-    /// axes" after `with_nominal`; "unknown" if the first six joints are not independent.
-    /// `print(robot)` shows what keeps the arm from a structure with a closed form, which is
-    /// faster, and a `snap` or another reading of its table that would give it one.
+    /// wrist", "pan, three parallel axes, roll", or "general" for any other; "refined spherical
+    /// wrist" or "refined three parallel axes" after `with_nominal`; "unknown" if the first six
+    /// joints are not independent. `print(robot)` shows what keeps the arm from a closed form, which
+    /// is faster, and a `snap` or another reading of its table that would give it one.
     #[getter]
     fn structure(&self) -> &'static str {
         on!(&self.arm, robot => robot.structure())
