@@ -48,11 +48,9 @@ impl Arm<5> {
             interrupt,
         };
         let mut best: Option<Plan<5>> = None;
-        for Strand { q, end } in search.strands(&path, options.start)? {
-            if end.is_some() {
-                continue;
-            }
-            let plan = self.plan_along(&q, options);
+        let strands = search.strands(&path, options.start)?;
+        for strand in strands.iter().filter(|strand| strand.end.is_none()) {
+            let plan = self.plan_along(&strand.q, options);
             let order = |plan: &Plan<5>| options.order.cost(plan.bottleneck, plan.cost);
             if best.as_ref().is_none_or(|best| order(&plan) < order(best)) {
                 best = Some(plan);
@@ -60,7 +58,7 @@ impl Arm<5> {
         }
         match best {
             Some(best) => Ok(best),
-            None => Err(PlanError::NoPlan(Box::new(search.no_plan(&path)?))),
+            None => Err(PlanError::NoPlan(Box::new(search.no_plan(&path, strands)?))),
         }
     }
 }
@@ -140,20 +138,21 @@ impl Search<'_, '_> {
     }
 
     /// The longest strand after the other: the plan with the fewest breaks, and why each ends.
-    fn no_plan(mut self, path: &[Pose]) -> Result<NoPlan<5>, PlanError<5>> {
+    fn no_plan(
+        mut self,
+        path: &[Pose],
+        mut strands: Vec<Strand<5>>,
+    ) -> Result<NoPlan<5>, PlanError<5>> {
+        let ends = strands.iter().filter_map(|strand| self.end(strand)).collect();
+        let pose_index = strands.iter().map(|strand| strand.q.len()).max().unwrap_or(0);
         let mut plan = self.arm.plan_along(&[], self.options);
         let mut leave = None;
-        let mut pose_index = 0;
-        let mut ends = Vec::new();
         while plan.q.len() < path.len() {
             let from = plan.q.len();
-            let start = self.options.start.filter(|_| from == 0);
-            let strands = self.strands(&path[from..], start)?;
-            if from == 0 {
-                ends = strands.iter().filter_map(|strand| self.end(strand)).collect();
-                pose_index = strands.iter().map(|strand| strand.q.len()).max().unwrap_or(0);
+            if from > 0 {
+                strands = self.strands(&path[from..], None)?;
             }
-            let longest = strands.into_iter().map(|strand| strand.q).max_by_key(Vec::len);
+            let longest = strands.drain(..).map(|strand| strand.q).max_by_key(Vec::len);
             let Some(q) = longest.filter(|q| !q.is_empty()) else {
                 plan.q.push(None);
                 plan.slot.push(None);
