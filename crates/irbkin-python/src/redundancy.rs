@@ -58,7 +58,7 @@ pub(super) fn read_pair<'py>(
 ) -> PyResult<(usize, Bound<'py, PyAny>)> {
     if !matches!(arm, SharedArm::Seven(_)) {
         return Err(PyTypeError::new_err(
-            "given is for arms of seven joints: the pose alone determines the six of this one",
+            "given is for arms of seven joints: the pose alone determines every joint of this one",
         ));
     }
     let Ok(pairs) = given.cast::<PyMapping>() else {
