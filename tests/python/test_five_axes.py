@@ -166,6 +166,42 @@ def test_what_five_axes_do_not_have_is_named(call: Callable[[np.ndarray], object
 
 
 @ARMS
+def test_a_pose_out_of_reach_has_no_solution_and_says_so(robot):
+    pose = robot.fk([0.1] * 5)
+    pose[:3, 3] += [9.0, 0.0, 0.0]
+    solutions = robot.ik(pose, heading_tolerance=math.pi)
+    assert len(solutions) == 0
+    assert solutions.reach is Reach.TOO_FAR
+    assert solutions.shortfall > 7.0
+    q, status = robot.ik_batch(pose)
+    assert np.isnan(q).all()
+    assert not status.any()
+
+
+@ARMS
+def test_a_pose_that_is_not_finite_is_an_error_and_an_invalid_row(robot):
+    poses = robot.fk(np.linspace([0.1] * 5, [0.2] * 5, 3))
+    whole = robot.ik_batch(poses)
+    poses[1, 2, 3] = np.nan
+    with pytest.raises(irbkin.InvalidPoseError, match=r"pose\[2, 3\] is NaN"):
+        robot.ik(poses[1])
+    q, status = robot.ik_batch(poses)
+    assert (status[1] == irbkin.Status.INVALID).all()
+    assert np.isnan(q[1]).all()
+    np.testing.assert_array_equal(q[::2], whole.q[::2])
+    np.testing.assert_array_equal(status[::2], whole.status[::2])
+
+
+@ARMS
+@pytest.mark.parametrize("tolerance", [None, 0.5])
+def test_an_empty_batch_has_an_empty_answer(robot, tolerance):
+    q, status = robot.ik_batch(np.empty((0, 4, 4)), heading_tolerance=tolerance)
+    assert q.shape == (0, *status.shape[1:], 5)
+    assert len(status) == 0
+    assert robot.fk(np.empty((0, 5))).shape == (0, 4, 4)
+
+
+@ARMS
 def test_a_plan_is_the_best_of_the_paths_from_every_solution(robot):
     q = np.linspace([0.1, -0.3, 0.4, -0.5, 0.6], [0.6, 0.1, 0.2, -0.2, -0.4], 30)
     path = robot.fk(q)
@@ -178,6 +214,14 @@ def test_a_plan_is_the_best_of_the_paths_from_every_solution(robot):
     far[20:, :3, 3] += 5.0
     with pytest.raises(irbkin.PathError, match="no branch reaches pose 20 from the start"):
         robot.plan(far)
+    gap = path.copy()
+    gap[10:15, :3, 3] += 5.0
+    with pytest.raises(irbkin.PathError, match="no branch reaches pose 10") as caught:
+        robot.plan(gap)
+    partial = caught.value.plan
+    assert [(b.leave, b.enter) for b in partial.breaks] == [(9, 15)]
+    assert np.isnan(partial.q[10:15]).all()
+    np.testing.assert_allclose(robot.fk(partial.q[15:]), path[15:], atol=1e-12)
 
 
 @ARMS
